@@ -31,7 +31,7 @@ pub enum Failure {
     Unwritable {
         /// The file or folder.
         path: PathBuf,
-        /// What the operating system says.
+        /// Error of the operating system.
         cause: io::Error,
     },
     /// A run cannot be taken up again.
@@ -72,7 +72,7 @@ pub enum Failure {
     /// There is no case of this name.
     #[error("there is no case `{name}`; known are {known}")]
     UnknownCase {
-        /// What was asked for.
+        /// Requested name.
         name: String,
         /// All names.
         known: String,
@@ -164,12 +164,12 @@ impl From<striae_cases::Failure> for Failure {
 }
 
 impl Failure {
-    /// Whether another rank tells it.
+    /// Returns whether another rank reports it.
     pub fn is_told(&self) -> bool {
         matches!(self, Self::Told(_))
     }
 
-    /// Whether nobody reads what the program prints any more, as after `| head`.
+    /// Returns whether nobody reads the program's output any more, as after `| head`.
     pub fn is_broken_pipe(&self) -> bool {
         matches!(self, Self::Output(cause) if cause.kind() == io::ErrorKind::BrokenPipe)
     }

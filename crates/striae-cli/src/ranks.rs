@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use crate::failure::Failure;
 
-/// Whether a rank speaks.
+/// Voice of a rank: only the first one prints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Voice {
     /// The first rank, or one that is alone.
@@ -17,7 +17,7 @@ pub enum Voice {
     Silent,
 }
 
-/// Whether there are ranks.
+/// Number of ranks that could print.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Voices {
     /// None but this program.
@@ -27,7 +27,7 @@ pub enum Voices {
 }
 
 impl Crew {
-    /// Whether there are ranks.
+    /// Returns whether there are several ranks.
     pub fn voices(&self) -> Voices {
         match self.ranks() {
             None => Voices::Alone,
@@ -113,7 +113,7 @@ mod together {
             Some(Arc::new(Petsc(ranks)))
         }
 
-        /// Whether this rank speaks.
+        /// Returns whether this rank prints.
         pub fn voice(&self) -> Voice {
             match &self.0 {
                 Some(ranks) if ranks.rank() > 0 => Voice::Silent,

@@ -89,7 +89,7 @@ fn interrupted(folder: &Path, arguments: &[&str], lines: usize) -> String {
     ended_by("-INT", folder, arguments, lines)
 }
 
-/// The same with any signal.
+/// Output of a run that was ended by a signal.
 fn ended_by(signal: &str, folder: &Path, arguments: &[&str], lines: usize) -> String {
     let mut command = program(folder, arguments);
     let mut child = command

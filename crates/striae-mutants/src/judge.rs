@@ -17,9 +17,9 @@ use crate::target::{Sample, Target};
 /// Stage that an input reaches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reached {
-    /// It is refused.
+    /// The input is refused.
     Refused,
-    /// It is read.
+    /// The input is read.
     Accepted,
     /// It has begun to run.
     Run,

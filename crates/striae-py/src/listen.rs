@@ -1,5 +1,5 @@
-//! What the thread that asked for a run does meanwhile: it answers to increments, and looks at
-//! the keyboard and at laws in Python.
+//! Work of the thread that started a run: responds to increments, and checks the keyboard and laws
+//! in Python.
 
 use std::{
     sync::{
@@ -24,7 +24,7 @@ const TICK: Duration = Duration::from_millis(50);
 pub struct Callback {
     /// The function.
     pub function: Py<PyAny>,
-    /// What is computed.
+    /// Problem that is solved.
     pub problem: Arc<Problem>,
     /// Where increments come from.
     pub heard: Receiver<Arc<Kept>>,
@@ -33,7 +33,7 @@ pub struct Callback {
 }
 
 impl Callback {
-    /// Whether the run goes on after an increment.
+    /// Passes on an increment and returns whether the run continues.
     fn told(&self, kept: Arc<Kept>) -> PyResult<Next> {
         Python::attach(|py| {
             py.check_signals()?;

@@ -10,7 +10,7 @@ use crate::{fault::refused, raised::Raised, texture::Texture};
 pub struct Material(
     /// The material.
     pub bulk::Material,
-    /// What a function that states its law has raised.
+    /// Exception raised by a function that states its law.
     pub Option<Raised>,
 );
 

@@ -27,7 +27,7 @@ impl fmt::Debug for Function {
     }
 }
 
-/// What the function returns: nothing where it allows no such deformation.
+/// Return value of the function: `None` if it does not allow such a deformation.
 type Answer<'py> = Option<(
     f64,
     PyReadonlyArrayDyn<'py, f64>,

@@ -174,9 +174,9 @@ impl Run {
     }
 }
 
-/// What is told and kept of a run: the function that is called with the results of each
-/// increment, and stops the run by `False`; increments between states that are kept (0: the
-/// ends of steps); the number of threads, that of the machine if `None`.
+/// Observation of a run: the function that is called with the results of each increment and can
+/// stop the run by returning `False`; increments between kept states (0: the ends of steps); the
+/// number of threads, that of the machine if `None`.
 type Watching = (Option<Py<PyAny>>, usize, Option<usize>);
 
 /// Where a run is written: the folder, the name of the case, increments between fields
@@ -237,7 +237,7 @@ fn recorded(
     }
 }
 
-/// What is written, with so many increments between fields if they are stated.
+/// Output settings, with so many increments between fields if they are stated.
 fn writing(output: Output, fields_every: Option<usize>) -> Output {
     let Some(every) = fields_every else {
         return output;

@@ -22,7 +22,7 @@ const ROUND_OFF: f64 = 1e-9;
 /// Prescribed displacements by body, node and component; `None` where they are not known.
 type Known = BTreeMap<(usize, usize, usize), Option<f64>>;
 
-/// Whether the functions of the last steps of a model begin where the nodes are.
+/// Checks that the functions of the last steps of a model start at the positions of the nodes.
 pub fn checked(model: &Model, steps: &[PyRef<'_, Step>]) -> PyResult<()> {
     if steps.iter().all(|step| step.1.is_empty()) {
         return Ok(());
@@ -44,7 +44,7 @@ pub fn checked(model: &Model, steps: &[PyRef<'_, Step>]) -> PyResult<()> {
     }
 }
 
-/// What is wrong with the start of a function, if there is something.
+/// Fault of the start of a function, if any.
 fn wrong(model: &Model, start: &Start, step: usize, known: &Known) -> Option<String> {
     let mut bodies = model.bodies.iter().enumerate();
     let (body, found) = bodies.find(|(_, body)| body.name == start.body)?;

@@ -49,7 +49,7 @@ impl Along {
 /// A step.
 #[pyclass(module = "striae._striae")]
 pub struct Step(
-    /// What it states.
+    /// Builder of the step.
     pub StepBuilder,
     /// Where functions of displacement begin.
     pub Vec<Start>,

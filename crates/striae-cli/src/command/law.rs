@@ -268,7 +268,7 @@ mod tests {
         arguments: Arguments,
     }
 
-    /// What is printed, or the failure.
+    /// Printed text, or the failure.
     fn said(words: &[&str], folder: &Path) -> Result<String, Failure> {
         let folder = folder.to_string_lossy();
         let words = ["law", "--out", &folder]

@@ -187,7 +187,7 @@ fn reproduced(
     })
 }
 
-/// What is known beside what was measured, without what this extent leaves out.
+/// Comparisons of measured with known values, without those that this extent omits.
 fn compared(case: &Case, study: &mut Study) -> Result<Vec<Comparison>, Failure> {
     let mut expected = Expected::parse(case.expected).map_err(|cause| OutputError::Content {
         path: Path::new(case.name).join("expected.toml"),

@@ -37,7 +37,7 @@ pub struct Arguments {
     ranks: Options,
 }
 
-/// Whether there is a report.
+/// Option to write a report.
 #[derive(clap::Args)]
 pub struct Reported {
     /// Write report.html beside the results, again and again as the run goes on.
@@ -69,7 +69,7 @@ pub struct Common {
     strict: bool,
 }
 
-/// What warnings do to the exit code.
+/// Effect of warnings on the exit code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Strictness {
     /// Nothing.
@@ -88,7 +88,7 @@ impl Common {
         }
     }
 
-    /// What warnings do.
+    /// Effect of warnings on the exit code.
     pub fn strictness(&self) -> Strictness {
         if self.strict {
             Strictness::Strict
@@ -190,7 +190,7 @@ pub fn concluded(
     ended(finished, folder, strictness)
 }
 
-/// Whether a run went well.
+/// Result of a finished run.
 fn ended(finished: Finished, folder: &Path, strictness: Strictness) -> Result<(), Failure> {
     let warnings = &finished.summary.warnings;
     match finished.ending {

@@ -1,4 +1,4 @@
-//! What a mesh file holds, in words and numbers.
+//! Description of a mesh file, in words and numbers.
 
 use std::{collections::BTreeMap, fmt::Write, path::Path};
 
