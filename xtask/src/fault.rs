@@ -12,7 +12,7 @@ pub enum Fault {
     Start {
         /// The command line.
         command: String,
-        /// What the operating system says.
+        /// Error of the operating system.
         cause: io::Error,
     },
     /// A program ended with a failure.
@@ -31,7 +31,7 @@ pub enum Fault {
     Unreadable {
         /// The file or folder.
         path: PathBuf,
-        /// What the operating system says.
+        /// Error of the operating system.
         cause: io::Error,
     },
     /// The source text breaks rules of the architecture.

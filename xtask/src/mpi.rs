@@ -69,7 +69,7 @@ const ENVIRONMENT: [(&str, &str); 4] = [
     ("RAYON_NUM_THREADS", "1"),
 ];
 
-/// What is run.
+/// Part of the checks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Part {
     Lints,
@@ -88,7 +88,7 @@ impl Part {
         ("scenes", Self::Scenes),
     ];
 
-    /// Whether the program is run.
+    /// Returns whether the part runs the program.
     fn is_of_program(self) -> bool {
         !matches!(self, Self::Lints | Self::Tests)
     }
@@ -97,7 +97,7 @@ impl Part {
 /// Builds the tests and the program and runs what is asked for, or all.
 ///
 /// # Errors
-/// What is missing, or the first test that fails.
+/// Returns what is missing, or the first test that fails.
 pub fn check(options: &[String]) -> Result<(), Fault> {
     let (extent, parts) = asked(options)?;
     missing()?;
@@ -162,7 +162,7 @@ fn tests() -> Result<(), Fault> {
     ends_all(TESTS[0].run(PANICKING, &["panic"]))
 }
 
-/// What the tests need and is not here.
+/// Checks that everything the tests need is installed.
 fn missing() -> Result<(), Fault> {
     let answers = |program: &str, arguments: &[&str]| {
         let mut command = Command::new(program);

@@ -35,7 +35,7 @@ const TOOLS: &str = "target/tools";
 /// Where the book is built; `docs/book.toml` says so.
 const BUILT: &str = "target/book";
 
-/// What mdBook takes for the command of `docs/book.toml` that makes formulas.
+/// Variable from which mdBook takes the command of `docs/book.toml` that makes formulas.
 const PREPROCESSOR: &str = "MDBOOK_PREPROCESSOR__MATHEMATICS__COMMAND";
 
 /// Where cases are run for the gallery.

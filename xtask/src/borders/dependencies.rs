@@ -8,7 +8,7 @@ use crate::breach::Breach;
 
 use super::metadata::{Kind, Package};
 
-/// What a crate may depend on.
+/// Dependencies that a crate may have.
 struct Row {
     name: &'static str,
     own: &'static [&'static str],

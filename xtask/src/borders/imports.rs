@@ -1,8 +1,8 @@
-//! What a source file takes from other files: its `use` items and paths.
+//! Imports of a source file from other files: its `use` items and paths.
 
 use super::text::product_lines;
 
-/// What a file uses and re-exports.
+/// Imports and re-exports of a file.
 pub struct Imports {
     items: Vec<Item>,
     paths: Vec<Used>,
@@ -22,7 +22,7 @@ struct Item {
     used: Used,
     /// The name it has here.
     name: String,
-    /// Whether the file's own code names it.
+    /// `true` if the file's own code names it.
     is_own: bool,
 }
 
@@ -75,7 +75,7 @@ impl Imports {
     }
 }
 
-/// What follows `use`, and whether the names are passed on.
+/// Tree that follows `use`, and whether the names are re-exported.
 fn use_tree(line: &str) -> Option<(bool, &str)> {
     let line = line.trim_start();
     if let Some(tree) = line.strip_prefix("use ") {

@@ -20,7 +20,7 @@ use crate::fault::Fault;
 /// How long an answer may take.
 const PATIENCE: Duration = Duration::from_secs(40);
 
-/// What is run if `CHROMIUM` names nothing else.
+/// Program that is run unless `CHROMIUM` names another.
 const PROGRAM: &str = "chromium";
 
 /// A browser with one page.
@@ -165,7 +165,7 @@ impl Chromium {
         Ok(())
     }
 
-    /// What the page did since it was last asked.
+    /// Events of the page since the last call.
     pub fn events(&mut self) -> Vec<Value> {
         std::mem::take(&mut self.events)
     }

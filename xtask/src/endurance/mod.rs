@@ -26,7 +26,7 @@ use std::{fs, path::PathBuf, time::Instant};
 use crate::{cargo, fault::Fault};
 use trials::Trials;
 
-/// What is tried, and how often.
+/// Trials to make, and how many.
 struct Options {
     binary: Option<PathBuf>,
     kills: u32,

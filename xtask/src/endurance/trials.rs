@@ -245,10 +245,10 @@ impl Trials {
         Ok(())
     }
 
-    /// What came out.
+    /// Verdict on all trials.
     ///
     /// # Errors
-    /// All that was wrong.
+    /// Returns all failures.
     pub fn verdict(self) -> Result<(), Fault> {
         match self.faults.len() {
             0 => Ok(()),
@@ -268,7 +268,7 @@ impl Trials {
         command
     }
 
-    /// The same with its progress.
+    /// Command that prints its progress.
     fn loud(&self, name: &str, folder: &Path) -> Command {
         let mut command = Command::new(&self.program);
         command

@@ -43,7 +43,7 @@ const CASES: [Case; 6] = [
 /// Which cases are run.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Extent {
-    /// Those that take seconds.
+    /// Cases that take seconds.
     Short,
     /// All.
     All,

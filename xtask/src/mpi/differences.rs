@@ -40,7 +40,7 @@ impl Differences {
         Ok(differences)
     }
 
-    /// Whether they are none.
+    /// Returns whether the differences are negligible.
     pub fn are_small(&self) -> bool {
         self.forces <= FORCES && self.iterations <= ITERATIONS
     }

@@ -82,7 +82,7 @@ pub fn check(program: &Path, extent: Extent) -> Result<(), Fault> {
     }
 }
 
-/// Who gets a signal.
+/// Receiver of a signal.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum To {
     Mpirun,

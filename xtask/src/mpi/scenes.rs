@@ -43,11 +43,11 @@ const CHANGES: u64 = 120;
 /// Runs on ranks that are made again first.
 const RUNS: usize = 4;
 
-/// What came of a scene.
+/// Outcome of a scene.
 enum Outcome {
     /// The exit code, and the history.
     Ran(i32, History),
-    /// What it said.
+    /// Message of the refusal.
     Refused(String),
 }
 
@@ -93,7 +93,7 @@ struct Scene<'a> {
 }
 
 impl Scene<'_> {
-    /// What came of it, or how ranks differ.
+    /// Outcome of the scene, or the differences between ranks.
     fn compared(&self) -> Result<Result<String, String>, Fault> {
         let alone = self.alone("alone", &self.deck)?;
         let together = self.run("ranks", &self.deck, RANKS)?;
@@ -135,7 +135,7 @@ impl Scene<'_> {
         Ok(None)
     }
 
-    /// Whether the ranks differ from themselves, or one process from itself as they do.
+    /// Returns whether the ranks differ among themselves, or one process from itself, by as much.
     fn excused(
         &self,
         (alone, together): (&History, &History),

@@ -17,7 +17,7 @@ const LIMIT: Duration = Duration::from_secs(600);
 const PATIENCE: Duration = Duration::from_secs(60);
 /// Between two looks.
 const PAUSE: Duration = Duration::from_millis(10);
-/// What Open MPI tells a rank.
+/// Variable by which Open MPI tells a rank its number.
 const RANK: &str = "OMPI_COMM_WORLD_RANK=";
 
 /// A run of the program.
@@ -176,7 +176,7 @@ pub fn history(folder: &Path) -> Result<History, Fault> {
     History::read(&path).map_err(|words| Fault::Mpi(format!("{}: {words}", path.display())))
 }
 
-/// What keeps a trial from being made.
+/// Fault that prevents a trial.
 pub fn broken_off(cause: std::io::Error) -> Fault {
     Fault::Mpi(format!("a trial cannot be made: {cause}"))
 }

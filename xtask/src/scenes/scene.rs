@@ -28,7 +28,7 @@ pub struct Scene {
     pub pairs: Vec<Pair>,
     /// Steps.
     pub steps: Vec<Step>,
-    /// Whether bodies begin inside one another.
+    /// Start of the bodies: apart, or overlapping.
     pub start: Start,
     /// Method of contact to ask for.
     pub enforcement: Option<&'static str>,
@@ -175,11 +175,11 @@ pub struct Cap {
 pub struct Rigid {
     /// Name.
     pub name: &'static str,
-    /// What it is.
+    /// Shape of the surface.
     pub shape: RigidShape,
 }
 
-/// What is rigid.
+/// Shape of a rigid surface.
 #[derive(Clone, Debug)]
 pub enum RigidShape {
     /// The plane through a point, with its normal.
@@ -238,7 +238,7 @@ pub enum Texture {
 }
 
 impl Scene {
-    /// Whether any step has inertia.
+    /// Returns whether any step has inertia.
     pub fn is_dynamic(&self) -> bool {
         self.steps.iter().any(Step::is_dynamic)
     }

@@ -12,7 +12,7 @@ use super::{
 pub struct Judged {
     /// The scene.
     pub scene: Scene,
-    /// What came of it.
+    /// Verdict on the scene.
     pub verdict: Verdict,
 }
 

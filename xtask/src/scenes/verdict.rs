@@ -1,4 +1,4 @@
-//! What came of a scene, in one word.
+//! Verdict on a scene, in one word.
 
 use super::{
     checks::{Findings, depth::DEPTH},
@@ -12,7 +12,7 @@ use super::{
 pub enum Class {
     /// Ran to its end, and all checks hold.
     Complete,
-    /// The same, with warnings of the program.
+    /// Ran to its end with warnings of the program, and all checks hold.
     Warned,
     /// Ran to its end with a depth beyond its bound, which the program itself tells, see
     /// [`is_told`]; all other checks hold.
@@ -61,14 +61,14 @@ impl Class {
     }
 }
 
-/// What came of a scene.
+/// Verdict on a scene.
 #[derive(Clone, Debug)]
 pub struct Verdict {
     /// Class.
     pub class: Class,
     /// Why, in a line.
     pub reason: String,
-    /// What the checks found, of whatever was written.
+    /// Findings of the checks, from whatever was written.
     pub findings: Findings,
     /// Increments that were cut.
     pub cutbacks: usize,
@@ -170,12 +170,12 @@ const TOLD: f64 = 0.9;
 /// turned by 45 degrees, see [`is_told`].
 const TOO_DEEP: f64 = std::f64::consts::FRAC_PI_4 / 3.0;
 
-/// Whether depth is all that fails, and the program itself tells as much.
+/// Returns whether depth is the only check that fails, and the program itself reports it.
 ///
-/// Weighted rows hold the mean gap over the facets around a node. At the edge of a face whose
-/// facets are turned against the other side by the angle `t`, the outermost nodes are inside
-/// by `h t/3` where the mean is zero, that is by a tenth of `h` from 17 degrees on. That is what
-/// such rows resolve on the mesh, so the program has to tell it, and to tell how much.
+/// Weighted rows control the mean gap over the facets around a node. At the edge of a face whose
+/// facets are rotated against the other side by the angle `t`, the outermost nodes are inside by `h
+/// t/3` where the mean is zero, that is, by a tenth of `h` from 17 degrees on. This is the
+/// resolution of such rows on the mesh, so the program must report it, with its amount.
 fn is_told(findings: &Findings, summary: &Summary) -> bool {
     let failed: Vec<(&str, f64)> = findings
         .failed()

@@ -37,7 +37,7 @@ impl Grid {
     /// Reads a file.
     ///
     /// # Errors
-    /// What is wrong with it, in words.
+    /// Returns the fault of the file, in words.
     pub fn read(path: &Path) -> Result<Self, String> {
         let bytes = fs::read(path).map_err(|cause| format!("{}: {cause}", path.display()))?;
         Self::of(&bytes).map_err(|wrong| format!("{}: {wrong}", path.display()))
@@ -46,7 +46,7 @@ impl Grid {
     /// Reads the content of a file.
     ///
     /// # Errors
-    /// What is wrong with it, in words.
+    /// Returns the fault of the content, in words.
     pub fn of(bytes: &[u8]) -> Result<Self, String> {
         let section = position(bytes, b"<AppendedData").ok_or("there are no appended data")?;
         let underscore = position(&bytes[section..], b"_").ok_or("the data do not begin")?;
@@ -102,7 +102,7 @@ impl Grid {
         }
     }
 
-    /// The same grid with one more array.
+    /// Grid with one more array.
     #[cfg(test)]
     pub fn with(mut self, name: &str, components: usize, values: Vec<f64>) -> Self {
         self.arrays
@@ -134,7 +134,7 @@ impl Grid {
         }
     }
 
-    /// Whether all numbers are finite.
+    /// Returns whether all numbers are finite.
     pub fn is_finite(&self) -> bool {
         let finite = |array: &Array| array.values.iter().all(|x| x.is_finite());
         self.points.iter().flatten().all(|x| x.is_finite()) && self.arrays.values().all(finite)

@@ -25,7 +25,7 @@ impl Placement {
         plus(applied(&self.matrix(), x), self.shift)
     }
 
-    /// What a direction becomes.
+    /// Direction after the rotation of the deck.
     pub fn direction(&self, v: Vector) -> Vector {
         if self.degrees == 0.0 {
             return v;
