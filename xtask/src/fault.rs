@@ -35,7 +35,7 @@ pub enum Fault {
         cause: io::Error,
     },
     /// The source text breaks rules of the architecture.
-    #[error("{}\n{} breaches; ARCHITECTURE.md and CONVENTIONS.md give the reasons", lines(.0), .0.len())]
+    #[error("{}\nbreaches: {}; ARCHITECTURE.md and CONVENTIONS.md give the reasons", lines(.0), .0.len())]
     Breaches(Vec<Breach>),
     /// An option is not understood.
     #[error("{0}")]

@@ -42,7 +42,7 @@ def floored(law: st.Friction | None, texture: Any = None) -> st.Model:
 
 SETS = "`all`, `xmax`, `xmin`, `ymax`, `ymin`, `zmax`, `zmin`"
 
-#: What is done, and the words.
+#: Wrong uses, and their messages.
 MODEL_ERRORS: list[tuple[Callable[[], Any], str]] = [
     (
         lambda: st.Mesh(POINTS[:, :2], {"hexahedron": CELLS}),
