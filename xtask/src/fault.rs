@@ -4,7 +4,7 @@ use std::{io, path::PathBuf, process::ExitStatus};
 
 use crate::breach::Breach;
 
-/// Why a task failed.
+/// Reason why a task failed.
 #[derive(Debug, thiserror::Error)]
 pub enum Fault {
     /// A program could not be started.
@@ -20,7 +20,7 @@ pub enum Fault {
     Failed {
         /// The command line.
         command: String,
-        /// How it ended.
+        /// Exit status.
         status: ExitStatus,
     },
     /// `cargo metadata` printed something else than expected.
@@ -63,7 +63,7 @@ pub enum Fault {
     /// Scenes came out wrong.
     #[error("{count} of {of} scenes came out wrong")]
     Scenes {
-        /// How many.
+        /// Number of failures.
         count: usize,
         /// Of how many.
         of: usize,

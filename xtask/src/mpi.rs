@@ -59,7 +59,7 @@ const TESTS: [Test; 1] = [Test {
 const RANKS: [usize; 4] = [1, 2, 3, 4];
 /// Ranks of which one panics.
 const PANICKING: usize = 3;
-/// How long the others may take to end.
+/// Time allowed for the others to end.
 const PATIENCE: Duration = Duration::from_secs(30);
 /// Lets Open MPI run more ranks than there are cores, and as root; others do not look.
 const ENVIRONMENT: [(&str, &str); 4] = [
@@ -126,7 +126,7 @@ pub fn check(options: &[String]) -> Result<(), Fault> {
     Ok(())
 }
 
-/// How much of which parts.
+/// Extent and parts that are requested.
 fn asked(options: &[String]) -> Result<(Extent, Vec<Part>), Fault> {
     let (mut extent, mut parts) = (Extent::Short, Vec::new());
     for option in options {

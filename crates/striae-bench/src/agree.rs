@@ -24,7 +24,7 @@ use striae_solve::{
 const ROUND_OFF: f64 = 1e-9;
 /// Displacements beyond which the LU is not asked.
 const MOST: usize = 100_000;
-/// Where the decks are if none are named.
+/// Folder of the decks if none are named.
 const FOLDER: &str = "cases";
 
 /// Runs decks, named or in folders, and makes each of their increments again.

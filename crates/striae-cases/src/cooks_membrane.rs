@@ -84,7 +84,7 @@ fn judge(study: &mut Study, name: &str, published: f64, family: &[[f64; 2]]) {
     }
 }
 
-/// How far the nodes of the free edge at a height rise.
+/// Rise of the nodes of the free edge at a height.
 fn rise(run: &Run, height: f64) -> f64 {
     let (problem, state) = (&run.finished.problem, &run.finished.state);
     let nodes = problem.reference.iter().zip(&state.positions);

@@ -36,7 +36,7 @@ const FRICTION: [(&str, &str); 3] = [
 const SIZE: [f64; 2] = [0.62, 0.65];
 /// Last strip: overlap of the bodies as meshed over the smaller of the facets' edges.
 const STRIP: f64 = 0.1;
-/// How far the sliding punch passes the edge.
+/// Distance that the sliding punch passes the edge.
 const BEYOND: f64 = 0.02;
 
 /// The step that slides off.
@@ -50,7 +50,7 @@ struct Scene {
     divisions: [usize; 2],
     /// Young's modulus of the punch over that of the base.
     ratio: f64,
-    /// Which friction.
+    /// Number of the friction law.
     friction: usize,
     /// Direction of sliding from the x axis, degrees.
     angle: f64,
@@ -320,7 +320,7 @@ impl Scene {
     }
 }
 
-/// How far friction exceeds Coulomb's law at the end, over the largest limit.
+/// Excess of friction over Coulomb's law at the end, relative to the largest limit.
 fn excess(run: &Run) -> f64 {
     let pair = &run.finished.state.pairs[0];
     let nodes = Side::BOTH

@@ -15,9 +15,9 @@ use super::study::Run;
 
 /// A node of a contact surface at the end of a run.
 pub struct MeasuredNode<'a> {
-    /// Where it was.
+    /// Position in the reference configuration.
     pub reference: Vec3,
-    /// Where it is.
+    /// Position in the current configuration.
     pub position: Vec3,
     /// Its tractions.
     pub result: &'a NodeResult,

@@ -128,7 +128,7 @@ fn path(run: &Run) -> Vec<[f64; 3]> {
         .collect()
 }
 
-/// When the block comes to rest, by its deceleration from a tenth to a twentieth of the
+/// Time at which the block comes to rest, by its deceleration from a tenth to a twentieth of the
 /// launching speed, one: the very end is lost in vibrations of the elastic block.
 fn stop(path: &[[f64; 3]]) -> f64 {
     let speeds: Vec<[f64; 2]> = path

@@ -14,7 +14,7 @@ use striae::{Finished, Simulation};
 
 use crate::failure::Failure;
 
-/// How much of a case is run.
+/// Part of a case that is run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extent {
     /// Everything.
@@ -45,11 +45,11 @@ impl Runner for Silent {
 pub struct Study<'a> {
     /// Name of the case.
     pub case: &'a str,
-    /// How much is run.
+    /// Part that is run.
     pub extent: Extent,
     /// Enforcement of contact in every pair, where it is not that of the decks.
     pub enforcement: Option<Enforcement>,
-    /// Where everything is written.
+    /// Folder of all output.
     pub folder: PathBuf,
     /// Runs the simulations.
     pub runner: &'a dyn Runner,

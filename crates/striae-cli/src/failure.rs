@@ -14,7 +14,7 @@ pub const INTERRUPTED: u8 = 130;
 /// Exit code of a request that is not possible.
 pub const IMPOSSIBLE: u8 = 2;
 
-/// Why the program did not do what it was asked for.
+/// Reason why the program did not do what was requested.
 #[derive(Debug, thiserror::Error)]
 pub enum Failure {
     /// The deck is faulty.

@@ -52,7 +52,7 @@ fn stop(interrupt: &Interrupt) {
     let _ = writeln!(std::io::stderr(), "{text}");
 }
 
-/// That which batch systems send through `mpirun`.
+/// Signal that batch systems send through `mpirun`.
 #[cfg(unix)]
 fn user_signal() -> SigSet {
     let mut signals = SigSet::empty();

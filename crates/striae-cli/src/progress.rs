@@ -11,7 +11,7 @@ use striae_solve::{drive::Progress as Position, model::Model, norms::Norms, outc
 
 use crate::forecast::{Forecast, clock};
 
-/// How much is said.
+/// Verbosity of the output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verbosity {
     /// Nothing but errors.
@@ -22,7 +22,7 @@ pub enum Verbosity {
     Iterations,
 }
 
-/// Where progress is shown.
+/// Display of progress.
 pub struct Progress {
     verbosity: Verbosity,
     bar: Option<ProgressBar>,

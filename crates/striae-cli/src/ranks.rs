@@ -65,7 +65,7 @@ mod together {
 
     use super::{Arc, Failure, Options, Voice};
 
-    /// How long a rank that failed waits for the others before it ends them.
+    /// Time that a rank that failed waits for the others before it ends them.
     const PATIENCE: Duration = Duration::from_secs(5);
     /// Variables that tell a process that it is one of several.
     const STARTED: [&str; 3] = ["OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"];
@@ -167,7 +167,7 @@ mod alone {
             None
         }
 
-        /// It speaks.
+        /// The only rank prints.
         pub fn voice(&self) -> Voice {
             Voice::First
         }

@@ -56,7 +56,7 @@ const COSTLY: f64 = 3.5e12;
 /// Reduction of the residual by a solution, unless another one is asked for.
 pub const REDUCTION: f64 = 1e-6;
 
-/// Which solver is tried first.
+/// Solver that is tried first.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Choice {
     /// The one that costs least by a count of operations and memory.
@@ -78,7 +78,7 @@ pub struct Automatic {
     partition: Option<Partition>,
     condensed: Option<Condensed>,
     lu: Option<Box<dyn LinearSolver>>,
-    /// Why the iterative solver was chosen by cost.
+    /// Reason why the iterative solver was chosen by cost.
     reason: Option<FallBack>,
     /// Iterations of GMRES that older factors are worth.
     allowance: usize,
@@ -257,12 +257,12 @@ impl Automatic {
 
 /// Public interface of the solver.
 impl Automatic {
-    /// Orders the unknowns and predicts the cost. Earlier factorisations are forgotten,
-    /// unless what contact couples more matters to an LU alone: where the condensed solver
-    /// is taken and no more supervariables are kept.
+    /// Orders the unknowns and predicts the cost. Earlier factorisations are forgotten, unless
+    /// additional couplings of contact only matter to an LU: if the condensed solver is used and no
+    /// more supervariables are kept.
     ///
     /// # Errors
-    /// Why the unknowns cannot be ordered.
+    /// Returns why the unknowns cannot be ordered.
     pub fn analyse(&mut self, partition: &Partition) -> Result<Analysis, SolveError> {
         if let Some(condensed) = self.unchanged(partition) {
             let analysis = condensed.analysis(self.precision());
@@ -351,7 +351,7 @@ impl Automatic {
     /// Predicted costs of all methods it chooses between, in the order they are tried.
     ///
     /// # Errors
-    /// Why the unknowns cannot be ordered.
+    /// Returns why the unknowns cannot be ordered.
     pub fn estimates(&self, partition: &Partition) -> Result<Vec<Analysis>, SolveError> {
         if matches!(self.choice, Choice::Multifrontal | Choice::Faer) {
             return Ok(Vec::new());
@@ -409,7 +409,7 @@ impl Automatic {
     /// Factors a matrix of the analysed partition.
     ///
     /// # Errors
-    /// Why no method can.
+    /// Returns why no method can.
     pub fn factor(&mut self, tangent: &Tangent) -> Result<Factored, SolveError> {
         self.factored = None;
         let good = self.allowance >= FEWEST && 4 * self.experience.taken <= 3 * self.allowance;
@@ -430,7 +430,7 @@ impl Automatic {
     /// `tangent`. The old content of `x` is not used.
     ///
     /// # Errors
-    /// Why there is no accurate answer.
+    /// Returns why there is no accurate solution.
     pub fn solve(
         &mut self,
         tangent: &Tangent,
@@ -445,7 +445,7 @@ impl Automatic {
     /// [stale](Age::Stale) or the solver is iterative.
     ///
     /// # Errors
-    /// Why there is no accurate answer.
+    /// Returns why there is no accurate solution.
     pub fn solve_to(
         &mut self,
         tangent: &Tangent,
@@ -491,7 +491,7 @@ impl Automatic {
     /// `None` where there are no such factors after all.
     ///
     /// # Errors
-    /// Why the contact system cannot be solved.
+    /// Returns why the contact system cannot be solved.
     pub fn solve_other_contact(
         &mut self,
         tangent: &Tangent,

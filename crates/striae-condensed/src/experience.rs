@@ -14,7 +14,7 @@ pub struct Experience {
     pub too_coarse: bool,
     /// Iterations of GMRES that the factors took last.
     pub taken: usize,
-    /// Why the last failure, or the analysis, led to another solver.
+    /// Reason why the last failure, or the analysis, led to another solver.
     #[serde(skip)]
     pub(crate) fall_back: Option<FallBack>,
     /// Factorisations by LU before the condensed solver is tried again.
@@ -57,7 +57,7 @@ pub struct FactoredInterior {
     pub values: Vec<Vec<f64>>,
     /// Scale of every unknown.
     pub scales: Vec<f64>,
-    /// Which unknowns are prescribed.
+    /// Unknowns that are prescribed.
     pub prescribed: Vec<bool>,
     /// `true` if the factors are in single precision.
     pub single: bool,

@@ -8,7 +8,7 @@ use thiserror::Error;
 pub struct Analysis {
     /// The cost.
     pub cost: Cost,
-    /// How matrices will be factored, if nothing forbids it.
+    /// Method by which matrices will be factored, unless something forbids it.
     pub method: Method,
 }
 
@@ -19,9 +19,9 @@ pub struct Factored {
     pub factor_entries: usize,
     /// Order of the dense contact system of the condensed solver.
     pub dense_order: usize,
-    /// How the matrix was factored.
+    /// Method by which the matrix was factored.
     pub method: Method,
-    /// Why the solver that was asked for was not used.
+    /// Reason why the requested solver was not used.
     pub fall_back: Option<FallBack>,
 }
 
@@ -63,7 +63,7 @@ impl std::fmt::Display for Method {
     }
 }
 
-/// Why another solver was used in the place of the one that was asked for.
+/// Reason why another solver was used instead of the requested one.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum FallBack {
     /// Dense algebra on the interface would cost more.

@@ -10,7 +10,7 @@ use striae_sparse::{SolveError, SolveReport};
 
 use crate::{Analysis, Factored, Partition, Tangent};
 
-/// Which unknowns of the whole system those of a part are.
+/// Numbers in the whole system of the unknowns of a part.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Numbering {
     /// Unknowns of the whole system.

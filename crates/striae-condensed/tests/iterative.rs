@@ -18,7 +18,7 @@ enum Contact {
     Open,
 }
 
-/// How the upper block is held.
+/// Support of the upper block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Top {
     Held,

@@ -112,10 +112,9 @@ const FLAT: f64 = 1e-3;
 
 /// Triangles of a convex polygon: a fan, after flat corners have been cut off.
 ///
-/// Where a side of the facet all but runs along an edge of the window, their
-/// crossing is a flat corner that moves along them without bound. Cut off alone,
-/// its triangle vanishes as fast as it moves; as the end of a diagonal it would
-/// multiply the error of quadrature by its speed.
+/// If a side of the facet nearly runs along an edge of the window, their crossing is a flat corner
+/// that moves along them without bound. Cut off alone, its triangle vanishes as fast as it moves;
+/// as the end of a diagonal it would multiply the error of quadrature by its speed.
 fn triangles<D: Real>(mut polygon: Vec<Vector2<D>>) -> Vec<[Vector2<D>; 3]> {
     let mut triangles = Vec::with_capacity(polygon.len());
     let mut at = 0;

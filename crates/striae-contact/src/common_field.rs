@@ -35,7 +35,7 @@ use crate::{
 /// Quantities that the common field depends on.
 #[derive(Clone, Copy)]
 pub struct CommonField<'a> {
-    /// Where everything is.
+    /// Configuration of the pair.
     pub configuration: &'a Configuration<'a>,
     /// Roles.
     pub selection: &'a Selection,

@@ -199,7 +199,7 @@ fn ordered(interface: &Interface, wanted: &[Vec<bool>; 2]) -> (Vec<(Side, Surfac
 /// Corners of a polygon in order.
 struct Block {
     nodes: Vec<u32>,
-    /// Where they stand in the polygon's own mass.
+    /// Positions in the polygon's own mass.
     from: Vec<u8>,
     source: usize,
 }

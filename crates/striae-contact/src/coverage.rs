@@ -1,4 +1,4 @@
-//! Which nodes of a side see the other side, and at what distance.
+//! Nodes of a side that see the other side, and their distances.
 
 use nalgebra::Vector3;
 use striae_mesh::{FacetId, Vec3};
@@ -27,7 +27,7 @@ pub enum Coverage {
 pub struct Contact {
     /// Gap, positive when open.
     pub gap: f64,
-    /// Where the point is.
+    /// Place of the point.
     pub place: Place,
 }
 
@@ -40,7 +40,7 @@ pub enum Place {
     Plane(Vec3),
 }
 
-/// Where a node finds the point opposite to it.
+/// Place at which a node finds the point opposite to it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Found {
     /// Along the normal.
@@ -50,10 +50,10 @@ pub enum Found {
     Edge([SurfaceNode; 2]),
 }
 
-/// How many reaches away a surface counts as seen, though out of reach.
+/// Distance, in reaches, up to which a surface counts as seen, though out of reach.
 const HORIZON: f64 = 20.0;
 
-/// How many reaches around a node a rigid surface is looked for.
+/// Distance, in reaches, around a node within which a rigid surface is searched.
 const FOLLOW: f64 = 6.0;
 
 impl Configuration<'_> {

@@ -9,7 +9,7 @@ use striae_surface::{
 
 use crate::{configuration::Configuration, search::Bounds, segment::FACING, side::Side};
 
-/// How much of a facet the other side covers.
+/// Part of a facet that the other side covers.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum FacetCoverage {
     /// Nothing.

@@ -1,4 +1,4 @@
-//! How the sides of a pair fit before anything has moved: gaps and overlaps.
+//! Initial fit of the sides of a pair: gaps and overlaps before any motion.
 //!
 //! ```text
 //! gap > 0:  distance from the nearest point of the other side, for points that face it
@@ -20,7 +20,7 @@ use crate::{
     side::Side,
 };
 
-/// How two sides fit.
+/// Initial fit of two sides.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fit {
     /// The smallest gap; `None` where the sides do not face each other.
@@ -33,7 +33,7 @@ pub struct Fit {
     pub lies: Lies,
 }
 
-/// Where side `a` is with respect to a rigid side.
+/// Position of side `a` relative to a rigid side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lies {
     /// Some of it is in front, or the other side is not rigid.
@@ -49,13 +49,13 @@ pub struct Opening {
     pub side: Side,
     /// The point.
     pub spot: Spot,
-    /// Where it is.
+    /// Position of the point.
     pub point: Vec3,
     /// Its distance.
     pub gap: f64,
 }
 
-/// How the sides of a pair fit.
+/// Initial fit of the sides of a pair.
 pub fn fit(stage: &Stage) -> Fit {
     let seen: Vec<Seen> = sides(stage)
         .flat_map(|side| {

@@ -11,16 +11,16 @@ use striae_surface::node::SurfaceNode;
 /// Record of whether a node carried traction unknowns in the last increment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LastIncrement {
-    /// It was kept: it competes with twice its pivot.
+    /// The node was kept: it competes with twice its pivot.
     Kept,
-    /// It was not.
+    /// The node was not kept.
     NotKept,
 }
 
 /// A node of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InterfaceNode {
-    /// Where it is.
+    /// Position of the node.
     pub position: Vec3,
     /// `h/E` of the body behind it, zero if rigid or wholly prescribed.
     pub flexibility: f64,

@@ -55,9 +55,9 @@ const THIN: f64 = 2.5;
 /// A configuration and how thick the bodies are in it.
 #[derive(Clone, Copy, Debug)]
 pub struct Stage<'a> {
-    /// Where the sides are.
+    /// Configuration of the sides.
     pub configuration: &'a Configuration<'a>,
-    /// How thick they are.
+    /// Thickness of the bodies behind them.
     pub thickness: &'a Thickness,
 }
 
@@ -70,7 +70,7 @@ pub struct Interference {
     pub spot: Spot,
     /// Surface node that is the point, or the corner of its facet that is in deepest.
     pub node: SurfaceNode,
-    /// Where the point is at the end.
+    /// Position of the point at the end.
     pub point: Vec3,
     /// Distance behind the other surface; the largest on its way for what passed, and
     /// the distance on the other side for what has gone through a body.
@@ -79,7 +79,7 @@ pub struct Interference {
     pub size: f64,
     /// Body or surface that the point is in.
     pub place: Place,
-    /// How it came there.
+    /// Kind of interference.
     pub kind: Kind,
 }
 
@@ -108,14 +108,14 @@ pub enum Place {
     Facet(FacetId),
 }
 
-/// How a point came to be where the other side is.
+/// Kind of interference, by how the point got there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// The point is inside.
     Inside,
-    /// It has passed through the surface and is not inside any more.
+    /// The point has passed through the surface and is not inside any more.
     Passed,
-    /// It has passed through the body and out on its other side.
+    /// The point has passed through the body and left it on the other side.
     Crossed,
 }
 
@@ -193,7 +193,7 @@ fn inside_by(
     Side::BOTH.into_iter().flat_map(within).collect()
 }
 
-/// Where a point is with respect to the facets of a side.
+/// Position of a point relative to the facets of a side.
 pub fn nearest_of(snapshot: &Snapshot, x: &Vec3) -> Option<Nearest> {
     placed(snapshot).nearest(x)
 }
@@ -205,7 +205,7 @@ pub(crate) fn spots(surface: &Surface) -> Vec<Spot> {
     nodes.chain(centres).collect()
 }
 
-/// Where a point of a surface is.
+/// Position of a point of a surface.
 pub fn position(snapshot: &Snapshot, spot: Spot) -> Vec3 {
     located(snapshot.surface, spot, |node| snapshot.x[node])
 }
@@ -287,7 +287,7 @@ fn thin(stage: &Stage, side: Side, facet: FacetId) -> f64 {
     THIN * stage.thickness.0[side.opposite()][facet.index()]
 }
 
-/// Where a point is inside the other side.
+/// Depth of a point inside the other side, with the nearest point.
 fn depth_inside(stage: &Stage, side: Side, spot: Spot) -> Option<Nearest> {
     let x = position(stage.configuration.side(side), spot);
     let other = stage.configuration.side(side.opposite());

@@ -25,13 +25,13 @@ pub struct Kinematics {
     pub reaches: Gradient,
     /// Presence of segments that contribute to the node in the present configuration.
     pub presence: Presence,
-    /// How its pressure is decided.
+    /// Law that determines its pressure.
     pub pressure: Pressure,
     /// Pressure per gap and friction per slip, `[r_n, r_t]`, that scale the complementarity.
     pub stiffness: [f64; 2],
 }
 
-/// How the pressure of a node is decided.
+/// Law that determines the pressure of a node.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Pressure {
     /// By the sign of the augmented pressure `p - r_n g` at the node.
@@ -77,7 +77,7 @@ pub enum Presence {
     /// The node faces the other side, but no point of its support is closed and nothing else gives
     /// it pressure.
     Apart,
-    /// It has left the other side in this increment.
+    /// The node has left the other side in this increment.
     Gone,
 }
 

@@ -17,7 +17,7 @@ pub struct ContactPair {
     pub name: String,
     /// The two sides.
     pub sides: [PairedSurface; 2],
-    /// How contact is enforced.
+    /// Enforcement of contact.
     pub enforcement: Enforcement,
     /// Distance over which contact is looked for ahead; `None`: half the local facet size.
     pub search_distance: Option<f64>,
@@ -78,7 +78,7 @@ pub enum Geometry {
     },
 }
 
-/// How contact is enforced.
+/// Enforcement of contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub enum Enforcement {
     /// One traction field for both sides and rows weighted with it.
@@ -94,7 +94,7 @@ impl ContactPair {
         Numbering::new(self.carriers())
     }
 
-    /// How many nodes may bear traction by side: those of deformable sides.
+    /// Number of nodes that may bear traction, by side: those of deformable sides.
     pub fn carriers(&self) -> [usize; 2] {
         Side::BOTH.map(|side| match &self.sides[side].geometry {
             Geometry::Deformable(surface) => surface.nodes().len(),

@@ -36,7 +36,7 @@ pub struct PairedFacets {
     pub segment: Segment,
 }
 
-/// Which facets are paired.
+/// Facets that are paired.
 #[derive(Clone, Copy, Debug)]
 pub struct Scope<'a> {
     /// Compliance `h/E` of the facets by side, which weighs their normals; zero if rigid.

@@ -20,7 +20,7 @@ pub enum Partner {
 }
 
 impl Partner {
-    /// Where the point is now, seen from a node of `side`.
+    /// Present position of the point, as seen from a node of `side`.
     pub fn point(&self, configuration: &Configuration, side: Side) -> Vec3 {
         match self {
             Partner::Rigid(point) => configuration.placement.point(point),

@@ -38,8 +38,8 @@ pub struct OnSegment {
     pub k: u32,
     /// Its basis function for pressure at the corners: `phi_k = sum_c share_kc N_c`.
     pub shares: [f64; 8],
-    /// That for friction as the first facet sees it, `psi_k`: the same with the sign of what is
-    /// handed on from the node to the corner, and from there to the first facet.
+    /// Function for friction as the first facet sees it, `psi_k`: with the sign of what is passed
+    /// on from the node to the corner, and from there to the first facet.
     pub slips: [f64; 8],
     /// 1 where the node is seen from the side of the first facet, -1 from that of the second.
     pub sign: f64,
@@ -113,7 +113,7 @@ pub(crate) fn wanted(
 pub(crate) struct Pressures<'a> {
     /// Unknowns and beddings.
     pub tractions: &'a Tractions,
-    /// Which iteration it is.
+    /// Stage of the iteration.
     pub iteration: Iteration,
 }
 

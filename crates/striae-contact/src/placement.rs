@@ -1,4 +1,4 @@
-//! Where a rigid side is: `x = R X + s` for the point `X` of its reference configuration.
+//! Placement of a rigid side: `x = R X + s` for the point `X` of its reference configuration.
 
 use nalgebra::{Matrix3, Vector3};
 use striae_mesh::Vec3;
@@ -14,7 +14,7 @@ pub struct Placement {
 }
 
 impl Placement {
-    /// Where it was at first.
+    /// Initial placement.
     pub fn at_rest() -> Self {
         Self::shifted(Vec3::zeros())
     }
@@ -27,12 +27,12 @@ impl Placement {
         }
     }
 
-    /// Where the point `X` is.
+    /// Position of the point `X`.
     pub fn point(&self, reference: &Vec3) -> Vec3 {
         self.rotation * reference + self.shift
     }
 
-    /// Where the direction `V` points.
+    /// Image of the direction `V`.
     pub fn direction(&self, reference: &Vec3) -> Vec3 {
         self.rotation * reference
     }

@@ -1,4 +1,4 @@
-//! Where triples are in a list.
+//! Positions of triples in a list.
 //!
 //! Derivatives are lists of blocks by [triple](crate::unknown), in any order. Summing such
 //! lists asks for each triple where it is in the sum, if it is there. A table over all

@@ -1,4 +1,4 @@
-//! Which nodes of a pair keep traction unknowns.
+//! Choice of the nodes of a pair that keep traction unknowns.
 //!
 //! The choice maximises pivots of a local, dimensionless surrogate of the compliance
 //! that the unknowns of both bodies see:
@@ -75,7 +75,7 @@ const INTERIOR: f64 = 0.25;
 pub(crate) struct Choice {
     /// Sorted by side and number.
     pub kept: Vec<u32>,
-    /// How independent of each other they are, for the ramp.
+    /// Mutual independence of the kept nodes, for the ramp.
     pub pivots: Vec<f64>,
     /// `l_k`.
     pub flexibility: Vec<f64>,

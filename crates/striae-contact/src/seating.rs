@@ -74,7 +74,7 @@ pub struct Fitted {
 }
 
 impl Seating {
-    /// That of the configuration at the start.
+    /// Seating of the configuration at the start.
     pub fn new(stage: &Stage) -> Self {
         let start = stage.configuration;
         let compliances = compliances(start);

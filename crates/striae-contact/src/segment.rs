@@ -83,7 +83,7 @@ pub enum Derivatives {
     First,
 }
 
-/// Which derivatives a segment is made with.
+/// Derivatives with which a segment is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SegmentDerivatives {
     /// None.
@@ -111,7 +111,7 @@ pub struct Segment {
     pub normal: Vec3,
     /// Area across `n`.
     pub area: f64,
-    /// Which corners and edges the vertices of the polygon come from, as a number.
+    /// Hash of the corners and edges that the vertices of the polygon come from.
     pub topology: u64,
     /// `D_cd`, symmetric.
     pub mass: [[f64; 8]; 8],

@@ -144,7 +144,7 @@ impl AtCorners {
     }
 }
 
-/// Where the facing points were, and how what was tangential then is turned.
+/// Previous positions of the facing points, and the rotation of what was tangential then.
 struct Moved {
     /// Old or carried positions, from a common origin.
     y: [Vec3; 8],

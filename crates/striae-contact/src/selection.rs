@@ -1,4 +1,5 @@
-//! Which nodes of a pair carry traction unknowns, and how the others follow them.
+//! Selection of the nodes of a pair that carry traction unknowns, and of the dependence of the
+//! others on them.
 //!
 //! Roles are chosen at the start of an increment, see [`crate::roles`], from the
 //! configuration it starts from and, where that shows too little, the one that it leads to.

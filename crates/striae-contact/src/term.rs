@@ -44,14 +44,14 @@ pub enum Field {
 /// A row: the equation it belongs to, what it states and its residual.
 pub type Row = (u32, Field, f64);
 
-/// Where lanes come from.
+/// Source of lanes.
 #[derive(Clone, Copy, Debug)]
 pub enum Source<'a> {
     /// Consecutive unknowns from the first of a triple on.
     Unknowns {
         /// The first of them.
         first: u32,
-        /// How many, one lane each.
+        /// Number of lanes.
         count: usize,
     },
     /// An intermediate vector, three lanes.

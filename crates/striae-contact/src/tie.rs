@@ -59,7 +59,7 @@ pub struct Apart {
     pub gap: f64,
     /// Distance relative to the size of the larger facet.
     pub share: f64,
-    /// Where.
+    /// Position.
     pub place: Vec3,
 }
 

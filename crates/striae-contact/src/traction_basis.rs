@@ -61,7 +61,7 @@ pub struct Weak {
     pub coefficient: f64,
     /// `R_k` by place among the kept nodes, of sum zero.
     pub row: Vec<(u32, f64)>,
-    /// That for friction, of the same places.
+    /// Row for friction, of the same places.
     pub friction_row: Vec<(u32, f64)>,
 }
 

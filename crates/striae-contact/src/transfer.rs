@@ -1,4 +1,4 @@
-//! Where nodes that are not kept take their traction from.
+//! Transfer of traction to nodes that are not kept.
 //!
 //! ```text
 //! (I - M_TT) Z_T = M_TK,   (I - S_TT) Y_T = S_TK,   S_tj = +-M_tj

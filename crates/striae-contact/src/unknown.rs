@@ -12,7 +12,7 @@ use nalgebra::Matrix3;
 use striae_mesh::Vec3;
 use striae_surface::node::SurfaceNode;
 
-/// Which position unknowns are prescribed, by side, three a node.
+/// Prescribed position unknowns, by side, three a node.
 pub type Prescribed = [Vec<bool>; 2];
 /// Derivatives of a vector: `(first unknown of a triple, d vector / d triple)`. Unknowns of
 /// contact come in triples: positions and tractions.

@@ -71,14 +71,14 @@ impl Tractions {
 pub struct Label {
     /// Status in the last iteration.
     pub status: Status,
-    /// How often it has begun to slip.
+    /// Number of times that it has begun to slip.
     pub begun: u32,
     /// `|du|` in the last iteration.
     pub slip: f64,
     /// `true` if the last change of `|du|` was a fall, counted from when the node last began or
     /// ceased to slip.
     pub fell: bool,
-    /// How often `|du|` rose after a fall, since then.
+    /// Number of times that `|du|` rose after a fall, since then.
     pub turns: u32,
     /// `true` if its pressure is known to be zero.
     pub apart: bool,
@@ -89,7 +89,7 @@ impl Label {
     /// Newton's method closes in on changes by less.
     const CHANGE: f64 = 0.1;
 
-    /// Which rise of `|du|` after a fall is one too many.
+    /// Number of rises of `|du|` after a fall that is one too many.
     const TURNS: u32 = 2;
 
     /// The label after an iteration in which no node began or ceased to slip.

@@ -89,7 +89,7 @@ pub enum FaultKind {
     Include {
         /// The file as written.
         file: String,
-        /// Why.
+        /// Reason.
         cause: String,
     },
     /// A part that a mesh file does not have.
@@ -206,7 +206,7 @@ pub enum FaultKind {
         kind: &'static str,
         /// The set.
         name: String,
-        /// Why, or where the body is.
+        /// Reason, or the extent of the body.
         cause: String,
     },
     /// A set that needs itself.
@@ -234,7 +234,7 @@ pub enum FaultKind {
         facet: usize,
         /// The node it names.
         node: usize,
-        /// How many nodes there are.
+        /// Number of nodes.
         nodes: usize,
     },
     /// Materials of a mesh file that cannot be used.
@@ -300,7 +300,7 @@ pub enum FaultKind {
     Nothing {
         /// `body` or `step`.
         key: &'static str,
-        /// Why one is needed.
+        /// Reason why one is needed.
         need: &'static str,
     },
     /// A solver of a run without ranks that only ranks have.

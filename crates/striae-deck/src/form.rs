@@ -58,9 +58,9 @@ pub(crate) struct Key {
 /// Necessity of a key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Need {
-    /// It may not.
+    /// The key is required.
     Required,
-    /// It may.
+    /// The key may be absent.
     Optional,
 }
 

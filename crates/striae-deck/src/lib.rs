@@ -52,7 +52,7 @@ pub struct Deck {
     pub output: Output,
     /// Notes on parts of mesh files that were interpreted or replaced, one line each.
     pub notes: Vec<String>,
-    /// Where its named parts are written.
+    /// Locations of its named parts.
     pub places: Places,
     /// Faults of the deck if it is run without ranks.
     together: Option<Box<Faults>>,

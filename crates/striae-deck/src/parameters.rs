@@ -23,7 +23,7 @@ const ROUND_OFF: f64 = 1e-13;
 /// Parameters that are computed over one another.
 const LONGEST: usize = 50;
 
-/// How a parameter is given.
+/// Kind of value given for a parameter.
 enum Given {
     Value(f64),
     Expression(String),

@@ -39,7 +39,7 @@ pub(crate) trait Part: Sized {
     fn alternatives() -> Vec<Alternative>;
 }
 
-/// Where a value stands: a key of a table.
+/// Location of a value: a key of a table.
 #[derive(Clone, Debug)]
 pub(crate) struct Place {
     table: String,
@@ -153,7 +153,7 @@ pub(crate) fn unexpected<T>(
 }
 
 impl TableReader<'_, '_, '_> {
-    /// Where the table stands.
+    /// Location of the table.
     pub(crate) fn span(&self) -> Span {
         self.span.clone()
     }
@@ -192,7 +192,7 @@ impl TableReader<'_, '_, '_> {
         self.known.extend(key_names(alternatives));
     }
 
-    /// Which of several exclusive groups of keys is present.
+    /// Group of keys that is present, out of several exclusive ones.
     pub(crate) fn choose(&mut self, groups: &[Vec<Alternative>]) -> Option<usize> {
         let present: Vec<(usize, &str)> = groups
             .iter()

@@ -113,7 +113,7 @@ pub(crate) fn note(settings: &[Setting]) -> Option<String> {
     (!paths.is_empty()).then(|| format!("set: {}", paths.join(", ")))
 }
 
-/// Where the number of a path stands; what is not there is a fault.
+/// Location of the number at a path; a missing number is a fault.
 fn at(tree: &DeTable<'_>, path: &str, faults: &mut FaultList<'_>) -> Option<Span> {
     let mut parts = keys(tree);
     let mut span = 0..0;

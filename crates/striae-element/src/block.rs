@@ -30,13 +30,13 @@ pub trait ElementBlock: Debug + Send + Sync {
     /// Kind of the elements.
     fn kind(&self) -> CellKind;
 
-    /// How many elements there are.
+    /// Number of elements.
     fn count(&self) -> usize;
 
     /// Reference volumes that belong to the quadrature points of an element.
     fn weights(&self, at: usize) -> &[f64];
 
-    /// How many quadrature points an element has.
+    /// Number of quadrature points of an element.
     fn points(&self) -> usize;
 
     /// Response of an element, written over an older one of the same kind.
@@ -187,7 +187,7 @@ impl<const N: usize, const Q: usize> Cells<N, Q> {
         }))
     }
 
-    /// How far volume ratios are taken to their mean.
+    /// Fraction by which volume ratios are averaged.
     fn share(&self, material: &Material) -> f64 {
         match self.kind {
             CellKind::CompositeTetrahedron => composite::share(material),

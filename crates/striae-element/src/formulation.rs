@@ -1,9 +1,9 @@
-//! How elements take up strain.
+//! Formulations of elements.
 
 use serde::Serialize;
 use striae_law::bulk::Material;
 
-/// How the elements of a body take up strain.
+/// Formulation of the elements of a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Formulation {
     /// By displacements alone, all of the deformation gradient at every point. Locks

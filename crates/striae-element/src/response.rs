@@ -28,7 +28,7 @@ pub struct ElementResponse {
 pub(super) type Answer<T> = Result<Response<T>, ResponseError>;
 
 impl ElementResponse {
-    /// Where one of `count` points writes what it has come to.
+    /// Storage for the new state of one of `count` points.
     pub(super) fn present(&mut self, point: usize, count: usize) -> Present<'_> {
         let each = self.variables.len() / count;
         Present {

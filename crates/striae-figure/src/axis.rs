@@ -14,7 +14,7 @@ pub(super) struct Mapping {
 }
 
 impl Mapping {
-    /// Where a number lies; nowhere if it has no place on the axis.
+    /// Position of a number; `None` if it has no place on the axis.
     pub fn place(&self, number: f64) -> Option<f64> {
         let fraction = match self.scale {
             Scale::Linear => (number - self.first) / (self.last - self.first),

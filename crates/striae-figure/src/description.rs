@@ -71,13 +71,13 @@ pub struct Axis {
     pub label: String,
     /// Its unit, may be empty.
     pub unit: String,
-    /// How numbers become lengths.
+    /// Conversion of numbers to lengths.
     pub scale: Scale,
     /// First and last number.
     pub limits: Limits,
 }
 
-/// How numbers become lengths.
+/// Conversion of numbers to lengths.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scale {
     /// In proportion.
@@ -148,7 +148,7 @@ pub enum Content {
     },
 }
 
-/// How the points of a curve are joined.
+/// Connection of the points of a curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Line {
     /// Not at all.

@@ -1,13 +1,13 @@
-//! Why a figure could not be made.
+//! Errors of figures.
 
 use std::path::PathBuf;
 
 use striae_files::FileError;
 
-/// Why a figure could not be made.
+/// Reason why a figure could not be made.
 #[derive(Debug, thiserror::Error)]
 pub enum FigureError {
-    /// It cannot be drawn as described.
+    /// The figure cannot be drawn as described.
     #[error("figure {}: {cause}", path.display())]
     Description {
         /// The figure.

@@ -25,7 +25,7 @@ pub(super) enum Coordinates {
 }
 
 impl Coordinates {
-    /// Where a point lies, if anywhere.
+    /// Position of a point, if it is in the panel.
     pub fn place(&self, point: [f64; 2]) -> Option<Place> {
         match self {
             Self::Cartesian { x, y } => Some([x.place(point[0])?, y.place(point[1])?]),

@@ -31,7 +31,7 @@ pub(super) struct Text {
     pub direction: Direction,
 }
 
-/// Which part of a text stands at its place.
+/// Part of a text that is anchored at its place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Anchor {
     Start,
@@ -39,7 +39,7 @@ pub(super) enum Anchor {
     End,
 }
 
-/// Where a text runs.
+/// Direction of a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Direction {
     Right,

@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 
 pub use stems::Stems;
 
-/// Why a file could not be written or read.
+/// Reason why a file could not be written or read.
 #[derive(Debug, thiserror::Error)]
 pub enum FileError {
     /// The file system refused to write.

@@ -52,7 +52,7 @@ impl Mesh {
         self.check_sets()
     }
 
-    /// How many elements there are.
+    /// Number of elements.
     pub fn element_count(&self) -> usize {
         self.blocks.iter().map(CellBlock::len).sum()
     }

@@ -122,7 +122,7 @@ struct Reader<'a> {
     unused: BTreeSet<usize>,
 }
 
-/// Where in the hierarchy of the file a keyword stands.
+/// Level of a keyword in the hierarchy of the file.
 #[derive(Default)]
 enum Scope<'a> {
     #[default]
@@ -136,7 +136,7 @@ enum Scope<'a> {
 struct Known<'a> {
     keyword: &'a Keyword<'a>,
     part: Part,
-    /// How many instances it has.
+    /// Number of its instances.
     instances: usize,
 }
 

@@ -14,7 +14,7 @@ pub struct MeshFileError {
     pub fault: MeshFileFault,
 }
 
-/// Where something stands in a mesh file.
+/// Location in a mesh file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
     /// A line of text, from 1.
@@ -119,7 +119,7 @@ pub enum MeshFileFault {
     /// A place that is wrong or cannot be used.
     #[error("{place}: expected {expected}, found {found}{}", Remedy(remedy))]
     At {
-        /// Where it is in the file.
+        /// Location in the file.
         place: Place,
         /// Expected content.
         expected: String,

@@ -1,6 +1,6 @@
 //! Elements of lower dimension that are left out.
 
-/// How many elements of lower dimension are in no set, by their dimension.
+/// Numbers of elements of lower dimension in no set, by dimension.
 #[derive(Default)]
 pub(super) struct Loose([usize; 3]);
 

@@ -2,8 +2,8 @@
 
 use striae_mesh::{ElementId, NodeId};
 
-/// How many bits the numbers of a part of an Abaqus file have where there are several instances;
-/// above them stands the place of the instance.
+/// Number of bits of the numbers of a part of an Abaqus file with several instances; the bits above
+/// hold the index of the instance.
 pub(super) const NUMBER_BITS: u32 = 40;
 
 /// The file's own numbers of what is read.

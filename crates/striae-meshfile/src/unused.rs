@@ -5,7 +5,7 @@
 pub struct Unused {
     /// The keyword without its asterisk, in capitals.
     pub keyword: String,
-    /// Where it stands.
+    /// Locations in the file.
     pub places: Vec<String>,
     /// `true` if it states a material.
     pub of_materials: bool,

@@ -51,7 +51,7 @@ pub enum FaultKind {
         kind: &'static str,
         /// The name.
         name: String,
-        /// Where it was defined first.
+        /// Path of the first definition.
         first: Path,
     },
     /// Facets with three corners where four are needed.
@@ -69,7 +69,7 @@ pub enum FaultKind {
     Nothing {
         /// `body` or `step`.
         what: &'static str,
-        /// Why one is needed.
+        /// Reason why one is needed.
         need: &'static str,
     },
     /// An id that nothing has.
@@ -79,7 +79,7 @@ pub enum FaultKind {
         what: &'static str,
         /// The id.
         index: usize,
-        /// How many there are.
+        /// Number of existing ones.
         count: usize,
     },
     /// A number outside its range.
@@ -149,7 +149,7 @@ pub enum FaultKind {
     NoMaterial {
         /// The body.
         body: String,
-        /// How many elements.
+        /// Number of such elements.
         count: usize,
         /// The first of them.
         element: ElementId,
@@ -177,7 +177,7 @@ pub enum FaultKind {
         pair: String,
         /// The body.
         body: String,
-        /// How many facets.
+        /// Number of such facets.
         shared: usize,
     },
     /// A surface that is a body's and a rigid one's.
@@ -263,13 +263,13 @@ pub enum FaultKind {
     /// A texture that cannot be painted.
     #[error("{cause}")]
     Unpainted {
-        /// Why.
+        /// Reason.
         cause: striae_solve::problem::ProblemError,
     },
     /// A tie that does not hold.
     #[error("{fault}")]
     Tie {
-        /// Why.
+        /// Reason.
         fault: striae_solve::tie::TieFault,
     },
     /// A pair joins what is tied.
@@ -309,7 +309,7 @@ pub enum FaultKind {
     /// The meshes of a pair do not fit.
     #[error("{fault}")]
     Initial {
-        /// How.
+        /// Fault of the initial fit.
         fault: striae_solve::initial::InitialFault,
     },
     /// A displacement condition without a component.
@@ -495,7 +495,7 @@ pub enum FaultKind {
     /// The constants of a bulk law are inadmissible.
     #[error("the material is not admissible: {cause}")]
     Material {
-        /// Which constant, and why.
+        /// Name of the constant, and the reason.
         cause: String,
     },
     /// Textures do not fit the friction law.
@@ -505,9 +505,9 @@ pub enum FaultKind {
     Textures {
         /// The pair.
         pair: String,
-        /// How many sides must have one.
+        /// Number of sides that must have one.
         required: &'static str,
-        /// How many do.
+        /// Number of sides that have one.
         found: usize,
     },
     /// A texture given at nodes of a plane.
@@ -531,7 +531,7 @@ pub enum FaultKind {
         step: String,
         /// The body or section.
         of: String,
-        /// Why, and what is needed.
+        /// Reason, and what is needed.
         cause: String,
     },
     /// A body that can move without resistance.
@@ -543,7 +543,7 @@ pub enum FaultKind {
         body: String,
         /// The first step in which it is free.
         step: String,
-        /// How many of the six rigid motions are free.
+        /// Number of free rigid motions, out of six.
         motions: usize,
     },
     /// A piece of a body that is not joined to the rest and can move without resistance.
@@ -553,17 +553,17 @@ pub enum FaultKind {
     LoosePiece {
         /// The body.
         body: String,
-        /// How many pieces it has.
+        /// Number of pieces.
         pieces: usize,
         /// Nodes of the piece.
         nodes: usize,
         /// The first of them.
         node: NodeId,
-        /// Where that is.
+        /// Position of the node.
         at: striae_mesh::Vec3,
         /// The first step in which it is free.
         step: String,
-        /// How many of the six rigid motions are free.
+        /// Number of free rigid motions, out of six.
         motions: usize,
         /// Nodes of the piece that lie on nodes of other pieces.
         coincident: usize,

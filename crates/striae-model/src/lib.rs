@@ -6,7 +6,7 @@
 //! Model::faults() -> [Fault { path, kind }]    every fault there is, `pairs[0].friction: ...`
 //! ```
 //!
-//! This crate knows no file format. A deck is read by `striae-deck`, which maps the paths of faults
+//! No file format is known here. A deck is read by `striae-deck`, which maps the paths of faults
 //! back to lines and columns.
 
 mod build;

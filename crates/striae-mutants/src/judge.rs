@@ -21,7 +21,7 @@ pub enum Reached {
     Refused,
     /// The input is read.
     Accepted,
-    /// It has begun to run.
+    /// The input has begun to run.
     Run,
 }
 
@@ -50,9 +50,9 @@ pub struct Finding {
 /// Depth to which accepted decks are tried.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Depth {
-    /// They are checked.
+    /// Decks are checked.
     Check,
-    /// They are run for an increment, if they are small.
+    /// Decks are run for an increment, if they are small.
     Run,
 }
 

@@ -1,4 +1,4 @@
-//! Why results could not be written or read back.
+//! Errors of writing results and reading them back.
 
 use std::path::PathBuf;
 
@@ -42,9 +42,9 @@ pub enum OutputError {
         path: PathBuf,
         /// The array.
         array: String,
-        /// How many points or cells there are.
+        /// Number of points or cells.
         expected: usize,
-        /// How many values it has.
+        /// Number of its values.
         found: usize,
     },
     /// Two arrays, columns or entries share one name.
@@ -64,7 +64,7 @@ pub enum OutputError {
         cell: usize,
         /// The point it names.
         point: usize,
-        /// How many points there are.
+        /// Number of points.
         points: usize,
     },
     /// A row of a history has other columns than the first one.

@@ -21,14 +21,14 @@ use crate::{
 /// Treatment of the results of an earlier run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Existing {
-    /// They stay, and the new run does not begin.
+    /// The results are kept, and the new run does not begin.
     #[default]
     Keep,
-    /// They are removed before the new run begins.
+    /// The results are removed before the new run begins.
     Replace,
 }
 
-/// How long a run that goes on waits for the one before it to end.
+/// Time that a resumed run waits for the previous one to end.
 const PATIENCE: Duration = Duration::from_secs(3);
 
 /// Files by which results are known.

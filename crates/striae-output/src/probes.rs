@@ -181,7 +181,7 @@ fn shared_weights(
 /// Nodes with their weights.
 ///
 /// # Errors
-/// Why there are none.
+/// Returns why there are none.
 pub fn weights(mesh: &Mesh, place: &ProbePlace) -> Result<Vec<(NodeId, f64)>, String> {
     match place {
         ProbePlace::Point(x) => match mesh.locate(x) {

@@ -73,7 +73,7 @@ pub struct Recorder {
     history: Option<History>,
     fields: Collections,
     started: Instant,
-    /// When the last checkpoint was written, or the run began.
+    /// Time of the last checkpoint, or of the start of the run.
     kept: Instant,
     tally: Tally,
     written: Option<usize>,

@@ -8,7 +8,7 @@ use striae_mesh::Vec3;
 /// Output of a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Output {
-    /// When fields are written.
+    /// Increments or times at which fields are written.
     pub fields: FieldOutput,
     /// Names of the bodies whose fields are written; `None`: all.
     pub bodies: Option<Vec<String>>,
@@ -43,7 +43,7 @@ impl Default for Output {
     }
 }
 
-/// When fields are written.
+/// Increments or times at which fields are written.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum FieldOutput {
     /// After every so many increments, and after the last.
@@ -150,11 +150,11 @@ pub struct Probe {
     pub name: String,
     /// Name of the body.
     pub body: String,
-    /// Where it is.
+    /// Place of the probe.
     pub place: ProbePlace,
 }
 
-/// Where a probe is.
+/// Place of a probe.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum ProbePlace {
     /// A material point, by its place in the reference configuration.

@@ -20,7 +20,7 @@ pub struct Summary {
     pub case: String,
     /// Version of the program.
     pub version: String,
-    /// How the run ended.
+    /// Ending of the run.
     pub status: Status,
     /// The ending in a sentence.
     pub reason: String,
@@ -87,7 +87,7 @@ impl From<Warning> for WarningSummary {
 /// Work spent on the linear systems.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SolverSummary {
-    /// How the last one was factored: `condensed`, `multifrontal` or `faer`.
+    /// Method of the last factorisation: `condensed`, `multifrontal` or `faer`.
     pub method: String,
     /// Factorisations in all accepted increments.
     pub factorisations: usize,
@@ -105,11 +105,11 @@ pub struct SolverSummary {
     pub contact_s: f64,
     /// Accepted increments in which another solver stood in for the one that was asked for.
     pub fall_backs: usize,
-    /// Why it last did.
+    /// Reason of the last change of solver.
     pub reason: Option<String>,
 }
 
-/// How a run ended.
+/// Ending of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
@@ -160,7 +160,7 @@ pub struct TieSummary {
     pub moment_mismatch: f64,
     /// Reference area that is tied.
     pub area: f64,
-    /// How far nodes were moved, before anything else, to where they belong.
+    /// Distance that nodes were moved, before anything else, to their places on the other surface.
     pub moved: f64,
 }
 

@@ -129,7 +129,7 @@ fn arrays(
     }
 }
 
-/// Which nodes are kept.
+/// Roles of the nodes.
 fn roles(state: &State, (pair, side): (usize, Side)) -> Vec<(&'static str, Values)> {
     let kept = state.pairs[pair].kept[side].iter().copied().map(u8::from);
     vec![("kept", Values::Codes(kept.collect()))]

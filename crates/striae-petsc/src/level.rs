@@ -1,9 +1,9 @@
 //! A level of the cycle on the bodies, with aggregates of its own.
 //!
-//! They do not reach over contact: bodies that slide on each other keep motions of their
-//! own. PETSc's aggregation would not know that, as what constraints couple is as strong as
-//! elements are. Aggregates do not reach over ranks either. When few unknowns are left the
-//! coarser levels are PETSc's.
+//! Aggregates do not extend across contact: bodies that slide on each other keep their own motions.
+//! PETSc's aggregation would not respect that, as couplings of constraints are as strong as those
+//! of elements. Aggregates do not reach over ranks either. When few unknowns are left the coarser
+//! levels are PETSc's.
 
 use crate::{
     binding::{Cycle, Entry, Lay, Library, Matrix, Side},
@@ -48,7 +48,7 @@ enum Coarser {
 /// Lists what is in one of this rank's rows, in any order, where blocks of one column add up.
 type Row<'a, const AREA: usize> = &'a (dyn Fn(usize, &mut Vec<Entry<AREA>>) + Sync);
 
-/// Where the rows of a level lie.
+/// Layout of the rows of a level.
 #[derive(Clone, Copy)]
 pub(crate) struct Problem<'a> {
     pub(crate) library: &'a Arc<Library>,
@@ -174,7 +174,7 @@ impl Coarser {
 }
 
 impl Problem<'_> {
-    /// This rank's rows, and the nodes of others that they name.
+    /// Rows of this rank, and the nodes of others that they refer to.
     fn rows<const N: usize, const AREA: usize>(
         &self,
         row: Row<'_, AREA>,

@@ -213,7 +213,7 @@ impl Team for Ranks {
     }
 }
 
-/// Where parts of so many entries start.
+/// Starts of parts with so many entries.
 fn starts(counts: &[i32]) -> Vec<i32> {
     let before = counts.iter().scan(0, |sum, &count| {
         let start = *sum;

@@ -26,9 +26,9 @@ pub struct Callback {
     pub function: Py<PyAny>,
     /// Problem that is solved.
     pub problem: Arc<Problem>,
-    /// Where increments come from.
+    /// Source of increments.
     pub heard: Receiver<Arc<Kept>>,
-    /// Where answers go.
+    /// Target of responses.
     pub answer: Sender<Next>,
 }
 

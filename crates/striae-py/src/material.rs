@@ -132,7 +132,7 @@ impl Material {
     }
 }
 
-/// How fibres take up stretch.
+/// Stiffness of fibres.
 #[derive(FromPyObject)]
 pub enum Stiffness {
     /// `k1`, `k2` and dispersion.

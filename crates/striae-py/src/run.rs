@@ -54,7 +54,7 @@ pub struct Run {
     told: Told,
 }
 
-/// How a run ended, in words.
+/// Ending of a run, in words.
 pub struct Told {
     /// `completed`, `interrupted` or `stopped`.
     pub ending: String,
@@ -179,8 +179,8 @@ impl Run {
 /// number of threads, that of the machine if `None`.
 type Watching = (Option<Py<PyAny>>, usize, Option<usize>);
 
-/// Where a run is written: the folder, the name of the case, increments between fields
-/// (0: the last only).
+/// Recording of a run: the folder, the name of the case, increments between fields (0: the last
+/// only).
 type Recording = (PathBuf, Option<String>, Option<usize>);
 
 /// Runs a model.

@@ -1,7 +1,8 @@
-//! Where functions of displacement begin: where the nodes are.
+//! Start values of functions of displacement.
 //!
-//! A condition takes nodes from where they are to its target. A function states displacements
-//! themselves, so it has to begin at the displacement that the steps before have led to.
+//! Conditions move nodes from their present displacement to the target. A function states
+//! displacements themselves, so it has to begin at the displacement that the steps before have led
+//! to.
 
 use std::collections::BTreeMap;
 

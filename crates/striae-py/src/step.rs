@@ -9,7 +9,7 @@ use striae::solve::actuation::strain_in_axes;
 
 use crate::friction::Friction;
 
-/// Where a function begins.
+/// Start value of a function.
 #[derive(Clone)]
 pub struct Start {
     /// Name of the body.
@@ -51,7 +51,7 @@ impl Along {
 pub struct Step(
     /// Builder of the step.
     pub StepBuilder,
-    /// Where functions of displacement begin.
+    /// Start values of functions of displacement.
     pub Vec<Start>,
 );
 

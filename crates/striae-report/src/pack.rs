@@ -10,7 +10,7 @@ use std::io::Write;
 
 use flate2::{Compression, write::ZlibEncoder};
 
-/// How codes are predicted.
+/// Prediction of codes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Prediction {
     Space,

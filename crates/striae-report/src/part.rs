@@ -23,7 +23,7 @@ use crate::{
 /// Arrays that say what others say, or what few ask for.
 const LEFT_OUT: [&str; 3] = ["structural_vector", "mean_traction", "normal"];
 
-/// How far points have gone, in files without `displacement`.
+/// Field of the displacements of points, for files without `displacement`.
 const MOTION: &str = "motion";
 
 /// A surface over time.

@@ -15,7 +15,7 @@ use crate::ReportError;
 pub struct Results {
     /// The folder.
     pub folder: PathBuf,
-    /// How the run ended.
+    /// Summary of the run.
     pub summary: Option<Summary>,
     /// A row an increment.
     pub history: Table,

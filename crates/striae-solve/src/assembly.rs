@@ -75,12 +75,12 @@ pub struct Setting<'a> {
     pub imposed: &'a Imposed,
 }
 
-/// Where contact at a trial state comes from.
+/// Source of contact at a trial state.
 #[derive(Debug)]
 pub enum Contact {
     /// Contact is evaluated.
     Evaluated(Iteration),
-    /// It has been evaluated at this very state.
+    /// Contact has been evaluated at exactly this state.
     Known(Vec<Evaluation>),
 }
 
@@ -112,7 +112,7 @@ pub struct Assembled {
 /// stays as it is. The partition grows where contact couples what it has not coupled before.
 ///
 /// # Errors
-/// Why the trial state cannot be evaluated.
+/// Returns why the trial state cannot be evaluated.
 pub fn assemble(
     setting: &Setting,
     trial: &Trial,
@@ -204,7 +204,7 @@ fn in_phases(
     })
 }
 
-/// Where the two sides of every pair are.
+/// Configurations of all pairs.
 fn configurations<'a>(setting: &Setting<'a>, trial: &'a Trial) -> Vec<Configuration<'a>> {
     let pairs = 0..setting.context.pairs.len();
     pairs

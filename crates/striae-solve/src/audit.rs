@@ -21,7 +21,7 @@ pub use motion::jump;
 pub struct Jump {
     /// The body.
     pub body: usize,
-    /// How far it moves.
+    /// Distance that it moves.
     pub way: f64,
     /// The longest way that is prescribed.
     pub driven: f64,

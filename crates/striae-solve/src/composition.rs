@@ -56,7 +56,7 @@ pub struct Resistance {
 }
 
 impl Composition {
-    /// That of a body, or what a rank has of it, with its reference elements.
+    /// Composition of a body, or of the part that a rank has, with its reference elements.
     pub(crate) fn new(body: &Body, elements: &Elements, materials: Materials) -> Self {
         let sections = body.section_of_elements();
         let counts = elements.iter().enumerate().map(|(at, element)| {
@@ -105,7 +105,7 @@ impl Composition {
         &self.materials.used
     }
 
-    /// How many variables all points remember together.
+    /// Number of internal variables of all points together.
     pub fn variable_count(&self) -> usize {
         self.first_variables.last().copied().unwrap_or(0)
     }

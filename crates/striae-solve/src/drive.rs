@@ -45,7 +45,7 @@ pub enum Continue {
     Yes,
     /// The run continues, and the observer receives its present point.
     Keep,
-    /// It ends after this increment, and the observer is given the point.
+    /// The run ends after this increment, and the observer receives its point.
     Stop,
 }
 
@@ -65,7 +65,7 @@ impl Continue {
     }
 }
 
-/// Where a run is.
+/// Position of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
     /// Number of the step.
@@ -78,8 +78,8 @@ pub struct Progress {
     pub time: f64,
 }
 
-/// How often in a step an increment that is doubted is tried again with a smaller one. Where that
-/// does not help, it is accepted with a warning.
+/// Number of times in a step that a doubted increment is repeated with a smaller one. If that does
+/// not help, it is accepted with a warning.
 const DOUBTS: usize = 4;
 
 /// Iterations up to which an increment counts as easy.
@@ -98,7 +98,7 @@ pub struct Point {
     pub fraction: f64,
     /// Size of the next increment.
     pub size: f64,
-    /// How often increments of the step have been tried again for doubts.
+    /// Number of times that increments of the step have been repeated because of doubts.
     pub doubted: usize,
     /// Distance over which it looks for contact, by pair, at least; empty after an increment
     /// that has converged.
@@ -180,12 +180,12 @@ pub fn resume_in(
     }
 }
 
-/// How far the division of a step into increments has come.
+/// Progress of the division of a step into increments.
 struct Division {
     count: usize,
     done: f64,
     size: f64,
-    /// How often increments have been tried again for doubts.
+    /// Number of times that increments have been repeated because of doubts.
     doubted: usize,
     /// Distance over which the next attempt looks for contact, by pair, at least.
     search: Vec<f64>,

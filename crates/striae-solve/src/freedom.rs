@@ -33,7 +33,7 @@ use crate::{
 pub enum Friction {
     /// All closed nodes of pairs that have friction.
     Any,
-    /// These, and all closed nodes of stabilised pairs.
+    /// Closed nodes with friction, and all closed nodes of stabilised pairs.
     Dashpots,
     /// Nodes that stick, in pairs of which a noticeable part does.
     Reserve,
@@ -73,7 +73,7 @@ pub enum Bridged {
     None,
     /// Pairs that are stabilised in the step.
     Stabilised,
-    /// These, as if they touched.
+    /// The pair of this number only, as if it touched.
     Touching(usize),
 }
 

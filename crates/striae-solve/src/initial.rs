@@ -56,7 +56,7 @@ pub fn crowded(model: &Model, pair: PairId, fit: &Fit) -> Option<InitialFault> {
     })
 }
 
-/// How all pairs fit; `None` for pairs that are no pairs.
+/// Initial fit of all pairs; `None` for pairs that are not valid.
 pub fn fits(model: &Model) -> Vec<Option<Fit>> {
     let pairs = 0..model.pairs.len();
     pairs

@@ -15,7 +15,7 @@ use crate::{
     state::State,
 };
 
-/// Where nodes and rigid bodies are.
+/// Positions of nodes and rigid bodies.
 #[derive(Clone, Copy, Debug)]
 pub struct Positions<'a> {
     /// Positions of all global nodes.
@@ -73,7 +73,7 @@ pub fn within(problem: &Problem, pair: usize, at: Positions, share: f64) -> Vec<
     resolved_inside(&stage, share)
 }
 
-/// Where the sides of a pair are.
+/// Configuration of a pair.
 pub fn configuration<'a>(problem: &'a Problem, pair: usize, at: Positions) -> Configuration<'a> {
     placed(problem, pair, &problem.pairs[pair].contact, at)
 }
@@ -104,7 +104,7 @@ pub(crate) fn placed<'a>(
     Configuration::new(contact, Side::BOTH.map(of_side), placement)
 }
 
-/// How thick the bodies behind the facets of a pair are.
+/// Thickness of the bodies behind the facets of a pair.
 pub fn thickness(problem: &Problem, pair: usize, positions: &[Vec3]) -> Thickness {
     let at = |body: usize, node: NodeId| positions[problem.node(body, node)];
     thickness_with(&problem.pairs[pair], at)

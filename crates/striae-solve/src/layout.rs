@@ -17,7 +17,7 @@ use striae_surface::node::SurfaceNode;
 use crate::{node::GlobalNode, problem::Problem};
 pub(crate) use growth::united;
 
-/// Which surface nodes have traction unknowns.
+/// Surface nodes with traction unknowns.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Extent {
     /// By pair and side.
@@ -37,7 +37,7 @@ pub struct Layout {
 }
 
 impl Extent {
-    /// This extent and the kept nodes of all pairs together.
+    /// Union of this extent and the kept nodes of all pairs.
     pub fn with(&self, selections: &[Selection]) -> Self {
         let mut grown = self.clone();
         grown.nodes.resize_with(selections.len(), Default::default);

@@ -41,7 +41,7 @@ pub struct Body {
     pub mesh: Mesh,
     /// Bulk material, where no section is.
     pub material: Material,
-    /// How its elements take up strain.
+    /// Formulation of its elements.
     pub formulation: Formulation,
     /// Mass per reference volume; zero where neither inertia nor gravity asks for it.
     pub density: f64,
@@ -60,7 +60,7 @@ pub struct BodySection {
     pub elements: Vec<ElementId>,
     /// Bulk material.
     pub material: Material,
-    /// How they take up strain.
+    /// Formulation of these elements.
     pub formulation: Formulation,
     /// Mass per reference volume.
     pub density: f64,
@@ -191,7 +191,7 @@ pub struct Pair {
     pub textures: [Option<Paint>; 2],
     /// Friction from the start; steps may change it.
     pub friction: Friction,
-    /// How contact is enforced.
+    /// Enforcement of contact.
     pub enforcement: Enforcement,
     /// Distance over which contact is looked for ahead; `None`: half the local facet size.
     pub search_distance: Option<f64>,
@@ -248,7 +248,7 @@ pub struct Tie {
     /// Distance up to which facets are tied; `None`: a tenth of their size, and facets that
     /// face each other from further away are a fault.
     pub within: Option<f64>,
-    /// How far the furthest node has been moved to where it belongs.
+    /// Largest distance that a node has been moved to its place on the other surface.
     pub moved: f64,
 }
 
@@ -280,7 +280,7 @@ pub struct InterferenceFit {
     /// Overlap of the undeformed bodies at the end of the first step, kept from there on; negative
     /// for a clearance.
     pub value: f64,
-    /// How it is approached in the first step.
+    /// Curve of the approach in the first step.
     pub curve: Curve,
 }
 
@@ -387,11 +387,11 @@ pub enum Mover {
 pub struct Gravity {
     /// Target.
     pub acceleration: Vec3,
-    /// How the target is approached.
+    /// Curve towards the target.
     pub curve: Curve,
 }
 
-/// How a step is divided into increments, as fractions of its duration.
+/// Division of a step into increments, as fractions of its duration.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Increments {
     /// First increment.
@@ -413,7 +413,7 @@ pub struct Displacement {
     pub nodes: Vec<NodeId>,
     /// Target by component; `None` leaves the component as it is.
     pub components: [Option<f64>; 3],
-    /// How the target is approached.
+    /// Curve towards the target.
     pub curve: Curve,
 }
 
@@ -439,9 +439,9 @@ pub struct Load {
     pub faces: Vec<Face>,
     /// Kind of load on the faces.
     pub kind: LoadKind,
-    /// Which part of the faces is loaded.
+    /// Part of the faces that is loaded.
     pub extent: LoadExtent,
-    /// How the target is approached.
+    /// Curve towards the target.
     pub curve: Curve,
 }
 
@@ -465,7 +465,7 @@ pub struct Actuation {
     pub section: Option<usize>,
     /// The strain or tension that it takes on.
     pub kind: ActuationKind,
-    /// How the target is approached.
+    /// Curve towards the target.
     pub curve: Curve,
 }
 
@@ -514,16 +514,16 @@ pub struct RigidMotion {
     pub force: Option<Vec3>,
     /// Target of the driving torque.
     pub torque: Option<Vec3>,
-    /// How the targets are approached.
+    /// Curve towards the targets.
     pub curve: Curve,
 }
 
 /// Motion of a coordinate of a rigid body.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum Freedom {
-    /// It stays free or where it is.
+    /// The coordinate stays free or at its value.
     AsBefore,
-    /// It goes to a target.
+    /// The coordinate moves to a target.
     To(f64),
     /// Forces decide.
     Free,
@@ -550,7 +550,7 @@ pub enum Curve {
 pub struct Solver {
     /// Factorisation.
     pub backend: Backend,
-    /// How stick and slip are found.
+    /// Determination of stick and slip.
     pub strategy: Strategy,
     /// Relative tolerance of every residual field.
     pub tolerance: f64,
@@ -560,7 +560,7 @@ pub struct Solver {
     pub further_iterations: usize,
 }
 
-/// How stick and slip are found.
+/// Determination of stick and slip.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum Strategy {
     /// As part of the linearisation.

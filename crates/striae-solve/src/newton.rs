@@ -77,21 +77,21 @@ pub struct Increment {
     pub doubts: Vec<Doubt>,
 }
 
-/// Which step an increment is of, and how far it goes.
+/// Step of an increment, and its end within it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct InStep {
     /// Number of the step.
     pub step: usize,
-    /// Where the increment ends.
+    /// End of the increment.
     pub reach: Reach,
 }
 
-/// Where an increment ends.
+/// End of an increment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reach {
     /// Within its step.
     Within,
-    /// Where its step ends.
+    /// End of its step.
     End,
 }
 
@@ -131,7 +131,7 @@ pub struct Estimate {
 /// Predicts the cost of the first linear system of a problem that is on one rank.
 ///
 /// # Errors
-/// Why the undeformed state cannot be evaluated.
+/// Returns why the undeformed state cannot be evaluated.
 pub fn estimate(problem: &Problem) -> Result<Estimate, CutBack> {
     let state = State::undeformed(problem);
     let context = StepContext::new(problem, 0, &state);
@@ -156,7 +156,7 @@ pub fn estimate(problem: &Problem) -> Result<Estimate, CutBack> {
 /// Forces and energies in `state`, with the loads at the start of the step.
 ///
 /// # Errors
-/// Why the state cannot be evaluated.
+/// Returns why the state cannot be evaluated.
 pub(crate) fn assembled_at_start(
     context: &StepContext,
     state: &State,
@@ -168,7 +168,7 @@ pub(crate) fn assembled_at_start(
 /// Forces and energies in `state`, with the loads at the fraction `s` of the step.
 ///
 /// # Errors
-/// Why the state cannot be evaluated.
+/// Returns why the state cannot be evaluated.
 pub(crate) fn assembled_at(
     context: &StepContext,
     state: &State,
@@ -198,7 +198,7 @@ pub(crate) fn assembled_at(
 /// Advances from `state` to the fraction `s` of the step.
 ///
 /// # Errors
-/// Why the increment has to be cut.
+/// Returns why the increment has to be cut.
 pub fn advance(
     context: &StepContext,
     state: &State,

@@ -1,12 +1,12 @@
-//! How increments and runs can end.
+//! Endings of increments and runs.
 //!
-//! Longer than other files, as it lists every ending with its words.
+//! Longer than other files, as it lists every ending with its message.
 
 use striae_sparse::SolveError;
 
 use crate::norms::Norms;
 
-/// Why an increment did not succeed and is tried again with a smaller one.
+/// Reason why an increment did not succeed and is repeated with a smaller one.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CutBack {
     /// Newton's method ran out of iterations.
@@ -38,7 +38,7 @@ pub enum CutBack {
     InvertedElement {
         /// Name of the body.
         body: String,
-        /// Which and how.
+        /// Element, and its fault.
         element: striae_element::ElementFault,
     },
     /// A load has no direction.
@@ -85,7 +85,7 @@ pub enum CutBack {
         body: String,
         /// The first node.
         node: striae_mesh::NodeId,
-        /// How many.
+        /// Number of such nodes.
         count: usize,
     },
     /// Bodies have gone through each other.
@@ -101,9 +101,9 @@ pub enum CutBack {
         node: striae_mesh::NodeId,
         /// Name of the body or surface that was passed through.
         other: String,
-        /// How deep it was.
+        /// Depth of the point.
         depth: f64,
-        /// How far one side has moved relative to the other.
+        /// Motion of one side relative to the other.
         way: f64,
     },
     /// A body has gone into itself or another one, where no pair lets them touch.
@@ -115,9 +115,9 @@ pub enum CutBack {
         node: striae_mesh::NodeId,
         /// Name of the body that it is inside of.
         other: String,
-        /// How deep it is.
+        /// Depth of the point.
         depth: f64,
-        /// Where it was at the start of the increment.
+        /// Position of the point at the start of the increment.
         start: Start,
     },
     /// Friction pushes a node along its slip.
@@ -144,7 +144,7 @@ pub enum CutBack {
     Jump {
         /// Name of the body.
         body: String,
-        /// How far its middle would move.
+        /// Distance that its centre would move.
         way: f64,
         /// The longest way that is prescribed.
         driven: f64,
@@ -218,7 +218,7 @@ pub enum CutBack {
         body: String,
         /// The node that flies furthest.
         node: striae_mesh::NodeId,
-        /// How far.
+        /// Distance of the motion.
         way: f64,
         /// Ratio to the size of the undeformed bodies.
         times: f64,
@@ -226,14 +226,14 @@ pub enum CutBack {
     /// The linear system could not be solved.
     #[error("{place}{}", solving(place, error))]
     LinearSystem {
-        /// Which unknown is involved.
+        /// Unknown that is involved.
         place: String,
         /// Error of the solver.
         error: SolveError,
     },
 }
 
-/// Where a point was at the start of an increment.
+/// Position of a point at the start of an increment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Start {
     /// Outside, or hardly inside.
@@ -381,7 +381,7 @@ fn cycling_text(cycling: &[CyclingNode]) -> String {
     )
 }
 
-/// How a run ended.
+/// Ending of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Ending {
     /// All steps were completed.
@@ -392,7 +392,7 @@ pub enum Ending {
         step: String,
         /// Time of the last converged state.
         time: f64,
-        /// Why the last attempt failed.
+        /// Reason why the last attempt failed.
         reason: CutBack,
     },
     /// The observer asked to stop.

@@ -93,7 +93,7 @@ pub struct PairGeometry {
     /// Faces of each deformable side, in the order of the facets; `None` where another rank has
     /// the element.
     pub faces: [Vec<Option<Face>>; 2],
-    /// How well conditioned the painting of each textured surface was.
+    /// Conditioning of the painting of each textured surface.
     pub conditionings: [Option<Conditioning>; 2],
     /// Fibres through what is behind the facets, see [`crate::interference`].
     pub fibres: [Vec<Option<Fibre>>; 2],
@@ -147,9 +147,9 @@ pub enum ProblemError {
         surface: String,
         /// The node.
         node: String,
-        /// Where it is; boxed, as errors should be small.
+        /// Position; boxed, as errors should be small.
         at: Box<Vec3>,
-        /// Why.
+        /// Reason.
         cause: Undirected,
     },
     /// A rigid plane has no nodes to paint.

@@ -16,7 +16,7 @@
 //! nodes of the section itself, and their inertia, count for the part in front. Tension is
 //! positive along `n`.
 //!
-//! Where ranks share a body, each has the elements behind that are its own, and their faces.
+//! If ranks share a body, each has those elements behind the plane that it owns, and their faces.
 
 mod borders;
 
@@ -37,7 +37,7 @@ pub struct Section {
     faces: Vec<[NodeId; 4]>,
 }
 
-/// Why a plane is no section of a body.
+/// Reason why a plane is not a section of a body.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum SectionError {
     /// No direction.
@@ -51,7 +51,7 @@ pub enum SectionError {
     Apart,
 }
 
-/// Where elements are with respect to a plane.
+/// Position of elements relative to a plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
     /// On the side that the normal points to.

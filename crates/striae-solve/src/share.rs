@@ -92,7 +92,7 @@ pub struct Holding {
     pub owners: Vec<u32>,
     /// Place of each local node among all nodes that its owner owns, which are in their order.
     pub places: Vec<u32>,
-    /// How many nodes each rank owns.
+    /// Number of nodes that each rank owns.
     pub owned: Vec<usize>,
     /// Number of each local node in the whole problem, ascending.
     pub nodes: Vec<usize>,
@@ -112,15 +112,15 @@ pub struct Holding {
 /// Data of the whole problem that a share keeps.
 #[derive(Clone, Debug)]
 pub struct Whole {
-    /// How many nodes there are, mass points with them.
+    /// Number of nodes, including mass points.
     pub nodes: usize,
-    /// How many nodes each body has.
+    /// Number of nodes of each body.
     pub mesh_nodes: Vec<usize>,
-    /// How many elements each body has.
+    /// Number of elements of each body.
     pub elements: Vec<usize>,
     /// Ends of the box around all nodes at rest.
     pub extent: [Vec3; 2],
-    /// How the pairs fit.
+    /// Initial fit of the pairs.
     pub fits: Vec<Option<Fit>>,
     /// `true` for pairs whose sides may ever meet.
     pub may_meet: Vec<bool>,
@@ -196,7 +196,7 @@ impl Share {
         holding.map_or(element, |holding| holding.elements[body][element.index()])
     }
 
-    /// How many nodes the whole problem has, where this rank holds `local` ones.
+    /// Number of nodes of the whole problem, of which this rank holds `local` ones.
     pub(crate) fn whole_node_count(&self, local: usize) -> usize {
         self.holding().map_or(local, |holding| holding.whole.nodes)
     }

@@ -56,7 +56,7 @@ pub struct Point {
     pub node: SurfaceNode,
     /// Weight in the relative motion.
     pub weight: f64,
-    /// Where it was at the start of the increment.
+    /// Position at the start of the increment.
     pub from: Vec3,
 }
 

@@ -48,7 +48,7 @@ pub struct State {
 pub struct PairState {
     /// Traction unknowns.
     pub tractions: Tractions,
-    /// Which nodes were kept in the increment that led here.
+    /// Nodes that were kept in the increment that led to this state.
     pub kept: Kept,
     /// Pressure and components of `-tau` along the nodal tangents of all nodes, by side.
     pub carried: [Vec<[f64; 3]>; 2],
@@ -142,7 +142,7 @@ impl NodalForces {
     }
 }
 
-/// How many variables the quadrature points of every body remember together.
+/// Number of internal variables of the quadrature points of every body.
 fn variables(problem: &Problem) -> impl Iterator<Item = usize> {
     let bodies = problem.compositions.iter();
     bodies.map(Composition::variable_count)

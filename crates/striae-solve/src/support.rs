@@ -81,7 +81,7 @@ pub(crate) fn tipping(
     })
 }
 
-/// Where moments are taken about, and their arm.
+/// Reference point of moments, and their arm.
 struct Frame {
     middle: Vec3,
     size: f64,

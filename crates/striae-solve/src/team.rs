@@ -17,7 +17,7 @@ pub trait Team: Debug + Send + Sync {
     /// Number of this rank, from 0.
     fn rank(&self) -> usize;
 
-    /// How many there are.
+    /// Number of ranks.
     fn size(&self) -> usize;
 
     /// Gathers the bytes of every rank, in the order of the ranks; all ranks receive equal lists.

@@ -150,7 +150,7 @@ impl Ties {
         &self.followers
     }
 
-    /// How a node follows, if it does.
+    /// Dependence of a node on others, if there is any.
     pub fn follower(&self, node: GlobalNode) -> Option<&Follower> {
         let at = self.of_node.get(node.0).copied().flatten()?;
         Some(&self.followers[at as usize])

@@ -36,7 +36,7 @@ const ROWS_FLOPS: usize = 500_000;
 /// Treatment of columns that cannot be eliminated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Leftover {
-    /// They are left to the parent.
+    /// The columns are left to the parent.
     Delay,
     /// There is no parent: a replacement pivot is put in.
     Replace,

@@ -17,7 +17,7 @@ use rayon::prelude::*;
 /// Entries of a subtree below which it is run through in sequence.
 const SEQUENTIAL: usize = 1 << 17;
 
-/// Where everything is.
+/// Positions of all values.
 #[derive(Debug)]
 pub(crate) struct Descent {
     fronts: Vec<Step>,

@@ -49,7 +49,7 @@ pub struct FactorReport {
     pub perturbed_pivots: usize,
 }
 
-/// How accurate a solution is and what it took.
+/// Accuracy and cost of a solution.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SolveReport {
     /// Componentwise backward error; with older factors the size of the residual of the
@@ -66,9 +66,9 @@ pub struct SolveReport {
 /// Age of factors.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Age {
-    /// They are of the matrix that is solved with.
+    /// The factors are of the matrix that is solved with.
     #[default]
     Fresh,
-    /// They are of an earlier one and serve as a preconditioner.
+    /// The factors are of an earlier matrix and serve as a preconditioner.
     Stale,
 }

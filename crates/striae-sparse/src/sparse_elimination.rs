@@ -44,7 +44,7 @@ pub struct Pivot {
     lower: (usize, usize),
 }
 
-/// How readily a column is taken as a pivot: low ranks first.
+/// Preference for a column as a pivot: low ranks first.
 pub type Ranks<'a> = &'a [u8];
 
 impl SparseElimination {

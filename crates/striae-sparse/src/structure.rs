@@ -189,7 +189,7 @@ impl Structure {
         self.edges(i).map(|edge| self.group(self.target(edge)))
     }
 
-    /// Where the values of all rows of supervariable `i` are.
+    /// Range of the values of all rows of supervariable `i`.
     pub fn rows(&self, i: usize) -> Range<usize> {
         let start = self.0.values[i];
         start..start + self.group(i).len() * self.row_length(i)

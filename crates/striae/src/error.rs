@@ -1,4 +1,4 @@
-//! Why a simulation could not be made or run.
+//! Errors of simulations.
 
 use striae_deck::Faults;
 use striae_figure::FigureError;
@@ -12,8 +12,8 @@ use striae_meshfile::MeshFileError;
 use striae_output::{OutputError, checkpoint::CheckpointError};
 use striae_solve::problem::ProblemError;
 
-/// Why a simulation could not be made or run. A run that stops for a reason that
-/// physics has is no error, but an ending.
+/// Reason why a simulation could not be made or run. A run that stops for a physical reason is not
+/// an error, but an ending.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// The deck is faulty.
@@ -49,7 +49,7 @@ pub enum Error {
     /// Another rank failed.
     #[error("rank {rank}: {cause}")]
     Elsewhere {
-        /// Which one.
+        /// Number of the rank.
         rank: usize,
         /// Message of the cause.
         cause: String,

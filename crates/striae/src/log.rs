@@ -19,7 +19,7 @@ use striae_solve::{
     state::State,
 };
 
-/// Where a run is written, and whether it can be resumed from there.
+/// Target of a recorded run, and whether it can be resumed from there.
 #[derive(Clone, Debug)]
 pub(crate) struct Recording {
     /// Folder of the output.

@@ -47,7 +47,7 @@ pub enum AngleFrom {
     Along,
 }
 
-/// How a file of measurements is laid out.
+/// Layout of a file of measurements.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Form {
     /// Direction that angles count from.
@@ -118,7 +118,7 @@ pub struct MeasurementFault {
 }
 
 impl MeasurementFaults {
-    /// That a file cannot be read.
+    /// Fault of a file that cannot be read.
     pub fn unreadable(file: &str, cause: &impl fmt::Display) -> Self {
         Self {
             file: file.to_owned(),

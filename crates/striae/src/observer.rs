@@ -33,14 +33,14 @@ impl Observer for () {}
 pub enum Next {
     /// The run continues.
     Continue,
-    /// It ends after this increment, as if it had been interrupted.
+    /// The run ends after this increment, as if it had been interrupted.
     Stop,
 }
 
 /// A converged increment.
 #[derive(Clone, Copy, Debug)]
 pub struct Converged<'a> {
-    /// Where the run is.
+    /// Position of the run.
     pub progress: Progress,
     /// Iterations, and what the linear systems took.
     pub increment: &'a Increment,

@@ -68,16 +68,16 @@ pub struct Simulation {
     ranks: Option<Arc<dyn Ranks>>,
 }
 
-/// Where a run begins.
+/// Start of a run.
 #[derive(Clone, Debug)]
 enum Begun {
     /// At rest.
     Undeformed,
     /// After so many steps and increments of an earlier run, in the state it came to.
     After(Box<(usize, usize, State)>),
-    /// Where a run was stopped, in files of its own.
+    /// Point at which a run was stopped, in files of its own.
     Within(Box<Point>),
-    /// Where a recorded run was stopped.
+    /// Point at which a recorded run was stopped.
     Stopped(Box<(Written, Point)>),
 }
 
@@ -92,7 +92,7 @@ pub struct Finished {
     pub steps: Vec<State>,
     /// Increments since the undeformed state.
     pub increments: usize,
-    /// How the run ended.
+    /// Ending of the run.
     pub ending: Ending,
     /// Content of `summary.json`: counts, resultants, warnings.
     pub summary: Summary,

@@ -22,16 +22,16 @@ use super::{
 };
 use crate::fault::Fault;
 
-/// Where the gallery is.
+/// Folder of the gallery.
 const FOLDER: &str = "docs/book/gallery";
 
-/// Where readers find the cases; the book does not hold them.
+/// Address of the cases for readers; the book does not contain them.
 const CASES: &str = "https://github.com/striae/striae/tree/main/cases";
 
 /// Quantities of a case that are shown; the others are in the file.
 const SHOWN: usize = 8;
 
-/// How much of the cases is run.
+/// Part of the cases that is run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extent {
     /// Cases as `striae reproduce --quick` runs them.

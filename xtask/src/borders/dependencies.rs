@@ -1,4 +1,4 @@
-//! Which crate may depend on which.
+//! Dependencies that crates may have on each other.
 //!
 //! The table is the ladder of `ARCHITECTURE.md`: a crate knows only what stands
 //! in its row. Tests may use more. [`VERIFICATION`] serves tests and the published

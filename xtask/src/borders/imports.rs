@@ -11,7 +11,7 @@ pub struct Imports {
 /// A name that a file takes from elsewhere.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Used {
-    /// Where it leads.
+    /// Path that it leads to.
     pub path: Vec<String>,
     /// Line, from 1.
     pub line: usize,
@@ -68,7 +68,7 @@ impl Imports {
         items.map(|item| &item.used).chain(&self.paths)
     }
 
-    /// Where a name leads that the file has from elsewhere.
+    /// Path of a name that the file has from elsewhere.
     pub fn exported(&self, name: &str) -> Option<&[String]> {
         let item = self.items.iter().find(|item| item.name == name)?;
         Some(&item.used.path)

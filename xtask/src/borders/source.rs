@@ -14,7 +14,7 @@ use std::path::{Component, Path};
 use super::text::product_lines;
 use crate::breach::Breach;
 
-/// Where a source file stands.
+/// Place of a source file in the workspace.
 pub struct Place {
     path: String,
     layer: Layer,

@@ -1,4 +1,4 @@
-//! How files of a run are damaged.
+//! Damage to files of a run.
 
 /// A file with a fault, and what `resume` has to say of it.
 pub type Damage = (&'static str, fn(&[u8]) -> Vec<u8>, &'static str);

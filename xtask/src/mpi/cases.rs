@@ -40,7 +40,7 @@ const CASES: [Case; 6] = [
         is_long: true,
     },
 ];
-/// Which cases are run.
+/// Cases that are run.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Extent {
     /// Cases that take seconds.
@@ -133,7 +133,7 @@ impl Case {
         History::read(&path).map_err(|words| Fault::Mpi(format!("{}: {words}", path.display())))
     }
 
-    /// Where its runs go.
+    /// Folder of its runs.
     fn folder(&self) -> PathBuf {
         Path::new("target/mpi").join(self.deck)
     }

@@ -1,4 +1,4 @@
-//! How runs on three ranks end that are disturbed, or cannot go on, and what is left.
+//! Endings of runs on three ranks that are disturbed or cannot continue, and the state they leave.
 //!
 //! | trial | what it must say |
 //! | --- | --- |
@@ -334,7 +334,7 @@ fn said<'a>(ended: &'a Ended, words: &str) -> &'a str {
     lines.find(|line| line.contains(words)).unwrap_or_default()
 }
 
-/// How many increments a run has taken down.
+/// Number of increments that a run has recorded.
 fn history_so_far(folder: &Path) -> Result<usize, Fault> {
     let text = fs::read_to_string(folder.join("history.csv")).map_err(broken_off)?;
     Ok(text.lines().count().saturating_sub(1))

@@ -9,7 +9,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// How a run ended.
+/// Result of a run.
 pub struct Run {
     /// The status, unless time ran out.
     pub status: Option<ExitStatus>,

@@ -103,7 +103,7 @@ const CAUSES: [(&str, &str); 12] = [
     ("no convergence", "no convergence"),
 ];
 
-/// Why runs that did not complete stopped, by cause.
+/// Reasons why runs did not complete, by cause.
 fn causes(all: &[Judged]) -> String {
     let stopped = all.iter().filter(|judged| {
         matches!(
@@ -240,7 +240,7 @@ fn iterations(all: &[Judged]) -> String {
     )
 }
 
-/// Why scenes did not complete.
+/// Reasons why scenes did not complete.
 fn reasons(all: &[Judged]) -> String {
     let mut text = String::new();
     for judged in all {

@@ -66,7 +66,7 @@ impl Class {
 pub struct Verdict {
     /// Class.
     pub class: Class,
-    /// Why, in a line.
+    /// Reason, in one line.
     pub reason: String,
     /// Findings of the checks, from whatever was written.
     pub findings: Findings,

@@ -27,16 +27,16 @@ pub struct Arguments {
     tolerance: f64,
 }
 
-/// How a column of the histories differs.
+/// Difference of a column of the histories.
 struct Difference {
     column: String,
     /// Values at the last common time.
     last: [f64; 2],
     /// Largest difference.
     absolute: f64,
-    /// That over the largest value of the column.
+    /// Ratio to the largest value of the column.
     relative: f64,
-    /// When that is.
+    /// Time of the largest difference.
     time: f64,
 }
 

@@ -1,7 +1,7 @@
 //! `striae fit MEASUREMENTS --law LAW`: constants of a friction law from measured friction.
 //!
-//! It prints the law as a table of a deck, the interval of each constant and how far the
-//! readings scatter about the law; see [`striae_law::fit`].
+//! Prints the law as a table of a deck, the interval of each constant and the scatter of the
+//! readings about the law; see [`striae_law::fit`].
 
 use std::{
     io::Write,
@@ -41,7 +41,7 @@ pub struct Arguments {
     /// Direction of slip by the orthotropic law.
     #[arg(long, value_enum, default_value = "opposing")]
     slip_rule: RuleName,
-    /// Where the angle 0 is: slip across the grooves (against a nap), or along them.
+    /// Direction of slip at the angle 0: across the grooves (against a nap), or along them.
     #[arg(long, value_enum, default_value = "across")]
     angle_from: FromName,
     /// A quantity that the file names otherwise, with the name or number of its column.
@@ -97,7 +97,7 @@ impl Arguments {
         }
     }
 
-    /// Where the angle 0 is, for laws that depend on it.
+    /// Direction of slip at the angle 0, for laws that depend on it.
     fn convention(&self) -> Option<&'static str> {
         match (self.law, self.angle_from) {
             (LawName::Coulomb, _) => None,
@@ -274,7 +274,7 @@ fn figures_of(number: f64) -> String {
     ((number * 1e6).round() / 1e6).to_string()
 }
 
-/// How good the law is.
+/// Quality of the fitted law.
 fn verdict(found: &Fit, readings: &[Reading]) -> String {
     let mean = readings.iter().map(|reading| reading.against).sum::<f64>() / readings.len() as f64;
     let mut text = format!("  readings: {}", readings.len());

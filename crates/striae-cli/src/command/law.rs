@@ -237,7 +237,7 @@ fn table(friction: &Friction, analyses: &[Analysis]) -> String {
     text
 }
 
-/// That friction dissipates, and where it does least.
+/// Confirmation that friction dissipates, with the place where it does least.
 fn verdict(analyses: &[Analysis]) -> String {
     let Some(first) = analyses.first() else {
         return String::new();

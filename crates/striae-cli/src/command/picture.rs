@@ -26,7 +26,7 @@ pub struct Arguments {
     /// Direction of sight, from the eye to the bodies.
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = direction)]
     view: Option<[f64; 3]>,
-    /// How much displacements are magnified.
+    /// Magnification of displacements.
     #[arg(long, default_value_t = 1.0)]
     magnify: f64,
     /// A body or a surface to leave out; may be given again.

@@ -51,7 +51,7 @@ pub struct Arguments {
     common: Common,
 }
 
-/// How contact is enforced.
+/// Enforcement of contact.
 #[derive(Clone, Copy, clap::ValueEnum)]
 enum Enforcement {
     /// Gaps and slips in the mean, one traction field for both sides.
@@ -215,7 +215,7 @@ fn compared(case: &Case, study: &mut Study) -> Result<Vec<Comparison>, Failure> 
     }))
 }
 
-/// How Newton's method did, a line a deck.
+/// Statistics of Newton's method, a line a deck.
 fn runs(study: &Study) -> String {
     if study.summaries.is_empty() {
         return String::new();

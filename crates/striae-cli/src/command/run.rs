@@ -74,12 +74,12 @@ pub struct Common {
 pub enum Strictness {
     /// Nothing.
     Lenient,
-    /// They make it 1.
+    /// Warnings make it 1.
     Strict,
 }
 
 impl Common {
-    /// How much is said.
+    /// Verbosity of the output.
     pub fn verbosity(&self) -> Verbosity {
         match (self.quiet, self.verbose) {
             (true, _) => Verbosity::Quiet,

@@ -36,7 +36,7 @@ pub(super) struct ContactSystem {
     pub(super) freedom: usize,
 }
 
-/// How the contact system is solved.
+/// Solver of the contact system.
 #[derive(Debug)]
 enum Solver {
     /// With the flexibilities of the bodies.

@@ -51,7 +51,7 @@ pub(crate) enum Purpose {
 /// Decision on a trial solve with new factors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Trial {
-    /// They are.
+    /// The factors are tried.
     Due,
     /// Factors of a similar system passed the trial.
     Waived,

@@ -8,10 +8,10 @@
 //! S m = r   =>   (G_m - G_x F C) m = r + G_x F g^T s r_g.
 //! ```
 //!
-//! Where `C = g^T` this is `S^-1 = S_K^-1 - s`, `S_K` of `K` alone (Sherman, Morrison,
-//! Woodbury): smooth tractions are met by `s`, which is exact. For rough ones `F` has the
-//! node-wise diagonal `D` of `K` and motions `z` of [patches](super::patches),
-//! `F = D^-1 + sum z z^T / d`; with the sizes `v` of these motions as unknowns
+//! If `C = g^T`, this is `S^-1 = S_K^-1 - s`, `S_K` of `K` alone (Sherman, Morrison, Woodbury):
+//! smooth tractions are met by `s`, which is exact. For rough ones `F` has the node-wise diagonal
+//! `D` of `K` and motions `z` of [patches](super::patches), `F = D^-1 + sum z z^T / d`; with the
+//! sizes `v` of these motions as unknowns
 //!
 //! ```text
 //! [ G_m - G_x D^-1 C   G_x z ] [m]   [r + G_x D^-1 g^T s r_g]

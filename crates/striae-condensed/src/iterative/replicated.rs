@@ -24,7 +24,7 @@ pub struct Group {
     pub bulk: usize,
     /// Multipliers.
     pub multipliers: usize,
-    /// When they are eliminated.
+    /// Tier in which they are eliminated.
     pub tier: Tier,
 }
 

@@ -11,13 +11,13 @@
 //!
 //! One that cannot slip at all has `z = 0`.
 //!
-//! Where friction falls with the slip rate it may fall faster with slip than the bodies let
-//! go: with `f(d) = F - k d - varpi(d/dt)`, `f'(0)` is positive, and Newton's method goes
-//! backwards from rest. Where `varpi` is convex, as in a decay, `f` is concave, and from the right
-//! of the solution Newton's method does not turn back. The least friction leads there: a node
-//! that sticks, slips and sticks begins with it at every second time. Where `f` is negative
-//! throughout there is no slip, and Newton's method goes back and forth about its largest
-//! value. A node whose slip goes back and forth sticks, therefore.
+//! If friction falls with the slip rate, it may fall faster with slip than the bodies relax: with
+//! `f(d) = F - k d - varpi(d/dt)`, `f'(0)` is positive, and Newton's method goes backwards from
+//! rest. Where `varpi` is convex, as in a decay, `f` is concave, and from the right of the solution
+//! Newton's method does not turn back. The least friction leads there: a node that sticks, slips
+//! and sticks begins with it at every second time. Where `f` is negative throughout there is no
+//! slip, and Newton's method goes back and forth about its largest value. A node whose slip goes
+//! back and forth sticks, therefore.
 
 use nalgebra::{Matrix2, Vector2};
 

@@ -10,7 +10,7 @@ use crate::{
     unknown::Prescribed, unknowns::Label,
 };
 
-/// Which iteration of an increment is evaluated.
+/// Stage of the iterations of an increment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Iteration {
     /// The first: touching nodes are closed; closed nodes stick or, if they slipped
@@ -37,7 +37,7 @@ pub struct Conditions<'a> {
     pub friction: &'a Friction,
     /// Prescribed positions.
     pub prescribed: &'a Prescribed,
-    /// Which iteration it is.
+    /// Stage of the iteration.
     pub iteration: Iteration,
     /// Nodes whose rows are wanted with derivatives, by side; of all without.
     pub wanted: Option<&'a [Vec<bool>; 2]>,

@@ -32,7 +32,8 @@ pub struct Facing {
 /// face each other.
 const OPPOSED: f64 = -1e-3;
 
-/// How far a node may lie beside the edge of the other side, over the facet size there.
+/// Distance up to which a node may lie beside the edge of the other side, over the facet size
+/// there.
 const BESIDE: f64 = 0.5;
 
 /// All nodes of the deformable sides that face the other side: their normals are opposed,

@@ -13,7 +13,7 @@ use super::plane_facet::Vec2;
 pub(super) struct Outline {
     /// Numbers of its corners in the facet, three or four.
     pub corners: Vec<usize>,
-    /// Where they are.
+    /// Positions of the vertices.
     pub places: Vec<Vec2>,
 }
 
@@ -24,7 +24,7 @@ pub(super) enum Label {
     Corner(usize),
     /// A corner of each side in one place: their middle.
     Both([usize; 2]),
-    /// Where an edge of each side crosses.
+    /// Crossing of an edge of each side.
     Crossing([CutEdge; 2]),
 }
 
@@ -67,7 +67,7 @@ pub const fn mixed(hash: u64, number: u64) -> u64 {
 /// A vertex of the common polygon.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Vertex {
-    /// Where it is.
+    /// Position of the vertex.
     pub place: Vec2,
     /// Origin of the vertex, which determines how it moves.
     pub label: Label,

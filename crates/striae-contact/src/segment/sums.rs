@@ -14,9 +14,9 @@ use super::plane_facet::{PlaneFacet, PlaneWeights, Vec2};
 
 /// Number of pairs `c <= d` of eight functions.
 pub(super) const PAIRS: usize = 36;
-/// Where pairs of one function of each side start.
+/// Start of the pairs of one function of each side.
 const MIXED: usize = 10;
-/// Where pairs of two functions of side `b` start.
+/// Start of the pairs of two functions of side `b`.
 const LAST: usize = 26;
 
 /// A number for each pair of functions.

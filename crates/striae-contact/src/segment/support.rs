@@ -99,8 +99,8 @@ impl Pressing {
         self.supports.len()
     }
 
-    /// How many supports are closed at a point with these interpolation functions: which, as
-    /// those with the largest limits are.
+    /// Number of supports that are closed at a point with these interpolation functions. The number
+    /// determines them, as those with the largest limits close first.
     pub(super) fn state(&self, shares: &[f64; 8]) -> usize {
         let gap = self.gap(shares);
         self.limits.iter().filter(|limit| gap < **limit).count()
@@ -190,7 +190,7 @@ impl Pressing {
     }
 }
 
-/// How many sides have functions.
+/// Number of sides that have functions.
 fn sides(mass: &[[f64; 8]; 8]) -> f64 {
     let has = |first: usize| (first..first + 4).any(|c| mass[c][c] != 0.0);
     f64::from(u8::from(has(0)) + u8::from(has(4)))

@@ -25,7 +25,7 @@ pub struct Selection {
     pub basis: TractionBasis,
     /// Compliance `h/E` of the facets by side.
     pub compliances: [Vec<f64>; 2],
-    /// How far the two sides move towards each other in the increment, at most.
+    /// Largest approach of the two sides in the increment.
     pub depth: f64,
     /// Points opposite to the kept nodes at the start, for collocated rows.
     pub partners: Vec<Option<Partner>>,
@@ -44,7 +44,7 @@ impl Selection {
         &self.basis.kept
     }
 
-    /// Which nodes are kept.
+    /// Nodes that are kept.
     pub fn kept_nodes(&self) -> Kept {
         let index = self.basis.index.each_ref();
         index.map(|side| side.iter().map(Option::is_some).collect())
@@ -166,7 +166,7 @@ impl Selection {
         offset.copied().unwrap_or(0.0)
     }
 
-    /// Which facets are paired.
+    /// Facets that are paired.
     pub fn scope(&self) -> Scope<'_> {
         Scope {
             compliances: &self.compliances,

@@ -5,9 +5,9 @@
 //! positions, cells and numbers of members of sets: how they were generated or where they
 //! were read is no part of a model. Gaps that were closed are closed in these meshes.
 //!
-//! Where a deck states a quantity in other terms than a model (degrees for radians, a normal
-//! of any length, coefficients for their shares in the largest), the number that is written
-//! is the one that gives the same bits when it is read, see `value`.
+//! If a deck states a quantity in other terms than a model (degrees for radians, a normal of any
+//! length, coefficients for their shares in the largest), the number that is written is the one
+//! that gives the same bits when it is read, see `value`.
 
 mod actuation;
 mod dependence;

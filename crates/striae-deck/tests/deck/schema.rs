@@ -5,7 +5,7 @@ use serde_json::Value;
 /// Verdict of the schema on a deck.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// It fits.
+    /// The deck matches the schema.
     Accepted,
     /// The deck does not match the schema, or is not even TOML.
     Refused,

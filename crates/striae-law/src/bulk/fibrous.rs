@@ -38,7 +38,7 @@ use super::{Direction, LameConstants, Material, Past, Present, Response, Respons
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 
-/// How a family of fibres takes up stretch.
+/// Stiffness of a family of fibres.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum FibreStiffness {
     /// Stiffer the more they are stretched, slack in compression.
@@ -60,9 +60,9 @@ pub enum FibreStiffness {
 /// A family of fibres.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Fibres {
-    /// How they take up stretch.
+    /// Stiffness of the fibres.
     pub stiffness: FibreStiffness,
-    /// Where they point at rest.
+    /// Direction of the fibres at rest.
     pub direction: Direction,
 }
 

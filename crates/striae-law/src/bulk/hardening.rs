@@ -17,7 +17,7 @@ use serde::Serialize;
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Hardening(HardeningForm);
 
-/// How the yield stress is stated.
+/// Form in which the yield stress is stated.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum HardeningForm {
     /// `Y = Y0 + (Ys - Y0) (1 - exp(-d p)) + H p`.
@@ -146,7 +146,7 @@ impl Hardening {
         Ok(Self(HardeningForm::Table(pairs.into())))
     }
 
-    /// How it is stated.
+    /// Form in which it is stated.
     pub fn form(&self) -> &HardeningForm {
         &self.0
     }

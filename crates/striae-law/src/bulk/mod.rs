@@ -114,7 +114,7 @@ impl From<Response<CompactTangent>> for Response {
 /// A response with a compact tangent.
 pub type CompactResult = Result<Response<CompactTangent>, ResponseError>;
 
-/// Why a material has no answer to a deformation gradient.
+/// Reason why a material has no response to a deformation gradient.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum ResponseError {
     /// The material is turned inside out.
@@ -181,7 +181,7 @@ impl Material {
         }
     }
 
-    /// How many variables a point remembers; none where the law has no memory.
+    /// Number of internal variables of a point; zero if the law has none.
     pub fn variables(&self) -> usize {
         match self {
             Self::Viscoelastic(law) => law.variables(),

@@ -26,7 +26,7 @@ pub trait BulkLaw: fmt::Debug + Send + Sync {
     /// A deformation the law does not allow; the increment is then cut back.
     fn response(&self, deformation_gradient: &Matrix3<f64>) -> Result<Response, ResponseError>;
 
-    /// How many variables a point remembers; all are zero at rest.
+    /// Number of internal variables of a point; all are zero at rest.
     fn variables(&self) -> usize {
         0
     }

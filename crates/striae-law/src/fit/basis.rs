@@ -37,7 +37,7 @@ pub(super) struct Shape {
     nodes: Vec<usize>,
 }
 
-/// How a constant follows from the parameters.
+/// Relation of a constant to the parameters.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Meaning {
     /// One of the parameters.
@@ -59,7 +59,7 @@ impl Shape {
         }
     }
 
-    /// How many parameters there are.
+    /// Number of parameters.
     pub(super) fn count(&self) -> usize {
         match self.sought {
             Sought::Coulomb => 1,
@@ -116,9 +116,9 @@ impl Shape {
         }
     }
 
-    /// Where dissipation is looked at: number of a reading, angle between textures, slip.
+    /// Places where dissipation is checked: number of a reading, angle between textures, slip.
     ///
-    /// Of two textures it is least where they are opposed or aligned.
+    /// For two textures it is smallest where they are opposed or aligned.
     pub(super) fn judged(&self) -> Vec<(usize, f64, f64)> {
         let around = |theta: f64| {
             let step = TAU / DIRECTIONS as f64;

@@ -1,10 +1,10 @@
-//! Why measurements give no law.
+//! Errors of fits to measurements.
 
 use thiserror::Error;
 
 use crate::friction::FrictionError;
 
-/// Why a law cannot be fitted.
+/// Reason why a law cannot be fitted.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum FitError {
     /// A reading is no number.

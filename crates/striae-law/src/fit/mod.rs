@@ -102,7 +102,7 @@ pub struct Fit {
 /// A constant of a law.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Constant {
-    /// Which one it is.
+    /// Name of the constant.
     pub name: ConstantName,
     /// Its value.
     pub value: f64,
@@ -110,7 +110,7 @@ pub struct Constant {
     pub interval: Option<[f64; 2]>,
 }
 
-/// Which constant it is.
+/// Name of a constant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ConstantName {
     /// The key of a deck.

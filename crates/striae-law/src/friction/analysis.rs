@@ -20,10 +20,10 @@ pub struct Analysis {
     pub samples: Vec<SlipSample>,
     /// Largest traction and largest angle between traction and slip.
     pub extremes: Extremes,
-    /// Where slip dissipates least at this angle between the textures.
+    /// Slip that dissipates least at this angle between the textures.
     pub least: SlipSample,
-    /// Where slip dissipates least over all angles between the textures; `None`
-    /// where the law does not depend on it.
+    /// Slip that dissipates least over all angles between the textures; `None` if the law does not
+    /// depend on this angle.
     pub least_over_textures: Option<LeastDissipation>,
 }
 

@@ -43,7 +43,7 @@ use serde::Serialize;
 use super::error::{FrictionError, positive};
 use super::monotone::Monotone;
 
-/// How coefficients of friction depend on the pressure.
+/// Dependence of coefficients of friction on the pressure.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct PressureDependence(Form);
 

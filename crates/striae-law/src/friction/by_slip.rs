@@ -21,7 +21,7 @@ use serde::Serialize;
 use super::error::{FrictionError, positive};
 use super::monotone::Monotone;
 
-/// How coefficients of friction depend on the accumulated slip.
+/// Dependence of coefficients of friction on the accumulated slip.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct SlipDependence(Form);
 

@@ -147,7 +147,7 @@ pub enum FrictionError {
     LogarithmVanishes {
         /// The factor.
         factor: f64,
-        /// Where friction vanishes.
+        /// Slip rate at which friction vanishes.
         rate: f64,
     },
 }

@@ -106,7 +106,7 @@ impl Law {
     }
 }
 
-/// Which of the two surfaces must carry a texture.
+/// Surfaces, of the two, that must carry a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RequiredTextures {
     /// Textures are not looked at.
@@ -288,7 +288,7 @@ impl Friction {
         self.shear_cap
     }
 
-    /// Which surfaces must carry a texture for [`Friction::kernel`] to exist.
+    /// Surfaces that must carry a texture for [`Friction::kernel`] to exist.
     pub fn required_textures(&self) -> RequiredTextures {
         match &self.law {
             Law::Frictionless | Law::Coulomb => RequiredTextures::Any,

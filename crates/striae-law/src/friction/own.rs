@@ -57,7 +57,7 @@ pub trait FrictionLaw: fmt::Debug + Send + Sync {
     /// The name of the law in messages and figures.
     fn name(&self) -> &str;
 
-    /// Which surfaces must carry a texture.
+    /// Surfaces that must carry a texture.
     fn required_textures(&self) -> RequiredTextures;
 
     /// The law at a point with the unit normal of the surface that carries it.

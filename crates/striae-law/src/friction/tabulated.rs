@@ -93,7 +93,7 @@ impl Tabulated {
 }
 
 impl<'a, D: DualNum<Primitive = f64> + Copy> Radial<'a, D> {
-    /// That of a table, with the axes from which and towards which `phi` turns.
+    /// Kernel of a table, with the axes from which and towards which `phi` rotates.
     pub(super) fn new(law: &'a Tabulated, axes: [Vector3<D>; 2]) -> Self {
         Self { law, axes }
     }

@@ -35,14 +35,14 @@ pub struct CappedBlock {
     pub fine_depth: f64,
     /// Largest ratio of neighbouring sizes outside; default 1.3.
     pub growth: f64,
-    /// How much of the block is meshed; default all of it.
+    /// Part of the block that is meshed; all of it by default.
     pub part: Part,
     /// Kind of cell that the hexahedra are divided into; hexahedra by default. Wedges extend along
     /// `z`.
     pub cells: CellKind,
 }
 
-/// How much of a block is meshed.
+/// Part of a block that is meshed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
     /// All of it.

@@ -15,7 +15,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-/// How much of a disc is meshed.
+/// Part of a disc that is meshed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sector {
     /// All of it.

@@ -52,7 +52,8 @@ impl Text {
         fault.of(&self.files[file])
     }
 
-    /// Where a line of the text is, in words; with the name of the file if it is an included one.
+    /// Location of a line of the text, in words; with the name of the file if it is an included
+    /// one.
     pub(in super::super) fn place(&self, line: usize) -> String {
         match self.origin(line) {
             (0, line) => format!("line {line}"),

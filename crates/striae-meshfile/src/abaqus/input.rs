@@ -30,7 +30,7 @@ impl InputFile {
         keywords(&self.text.lines).map_err(|fault| self.text.placed(fault))
     }
 
-    /// Where a line of the text is, in words.
+    /// Location of a line of the text, in words.
     pub fn place(&self, line: usize) -> String {
         self.text.place(line)
     }

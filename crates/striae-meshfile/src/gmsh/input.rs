@@ -25,7 +25,7 @@ pub(super) struct Input<'a> {
     words: SplitWhitespace<'a>,
 }
 
-/// How numbers are written.
+/// Encoding of numbers.
 #[derive(Clone, Copy, PartialEq)]
 enum Form {
     Text,
@@ -33,7 +33,7 @@ enum Form {
     Binary(Order, usize),
 }
 
-/// Which byte of a number comes first.
+/// Order of the bytes of a number.
 #[derive(Clone, Copy, PartialEq)]
 enum Order {
     Little,
@@ -72,7 +72,7 @@ impl<'a> Input<'a> {
         self.form != Form::Text
     }
 
-    /// Where the record stands that was read last.
+    /// Location of the record that was read last.
     pub(super) fn place(&self) -> Place {
         match self.form {
             Form::Text => Place::Line(self.lines),

@@ -24,7 +24,7 @@ struct Grid {
     first: Vec<i64>,
 }
 
-/// Which triangle of a wedge comes first.
+/// Triangle of a wedge that comes first.
 #[derive(Clone, Copy)]
 enum Wedge {
     Inward,
@@ -90,7 +90,7 @@ impl Grid {
     }
 }
 
-/// How a file is written.
+/// Encoding of a file.
 #[derive(Clone, Copy, Debug)]
 struct How {
     format: Format,

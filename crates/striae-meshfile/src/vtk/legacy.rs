@@ -187,7 +187,7 @@ impl File<'_> {
             .collect())
     }
 
-    /// How colours are written.
+    /// Type of the numbers of colours.
     fn colours(&self) -> Number {
         match self.form {
             Form::Text => Number::F64,

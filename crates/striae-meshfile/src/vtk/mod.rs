@@ -49,7 +49,7 @@ struct Grid {
     points: Vec<Vec3>,
     /// Points of all cells, one cell after the other.
     nodes: Vec<i64>,
-    /// Where each cell ends in `nodes`.
+    /// End of each cell in `nodes`.
     ends: Vec<i64>,
     /// VTK's code of each cell.
     codes: Vec<i64>,

@@ -15,7 +15,7 @@ pub(super) enum Number {
     F64,
 }
 
-/// Which byte of a number comes first.
+/// Order of the bytes of a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Order {
     Little,

@@ -120,7 +120,7 @@ impl PairBuilder {
         self
     }
 
-    /// How contact is enforced.
+    /// Sets the enforcement of contact.
     pub fn enforcement(mut self, enforcement: Enforcement) -> Self {
         self.enforcement = enforcement;
         self

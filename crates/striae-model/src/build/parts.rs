@@ -83,7 +83,7 @@ impl SectionBuilder {
         self
     }
 
-    /// How its elements take up strain.
+    /// Sets the formulation of its elements.
     pub fn formulation(mut self, formulation: Formulation) -> Self {
         self.section.formulation = formulation;
         self
@@ -97,7 +97,7 @@ impl BodyBuilder {
         self
     }
 
-    /// How its elements take up strain.
+    /// Sets the formulation of its elements.
     pub fn formulation(mut self, formulation: Formulation) -> Self {
         self.body.formulation = formulation;
         self

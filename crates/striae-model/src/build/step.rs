@@ -71,10 +71,10 @@ pub struct StepBuilder {
     last: Last,
 }
 
-/// Which components a release sets free.
+/// Components that a release sets free.
 #[derive(Clone, Copy, Debug)]
 enum Released {
-    /// These.
+    /// The components given here.
     Chosen([bool; 3]),
     /// All that are prescribed.
     Prescribed,
@@ -481,7 +481,7 @@ impl Prescribed {
 pub(super) struct Resolved {
     pub(super) step: Step,
     pub(super) known: Known,
-    /// How many displacement conditions are stated.
+    /// Number of displacement conditions stated.
     stated: usize,
     /// Positions in the builder of what is known, by list.
     positions: BTreeMap<&'static str, Vec<usize>>,

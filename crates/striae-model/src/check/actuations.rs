@@ -63,7 +63,7 @@ fn name(draft: &Draft<'_>, stated: &Actuation) -> String {
     )
 }
 
-/// Why an actuation makes no sense on its own.
+/// Reason why an actuation is meaningless on its own.
 fn unsound<'a>(
     draft: &Draft<'_>,
     stated: &Actuation,
@@ -113,7 +113,7 @@ fn is_unit(vector: &Vec3) -> bool {
     (vector.norm() - 1.0).abs() < 1e-6
 }
 
-/// Why fibres that are not there cannot be actuated.
+/// Reason why missing fibres cannot be actuated.
 fn without_fibres(draft: &Draft<'_>, stated: &Actuation, kind: &ActuationKind) -> Option<String> {
     let of_fibres = [
         ActuationKind::FibreStrain(0.0),

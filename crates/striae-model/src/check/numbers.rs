@@ -238,7 +238,7 @@ fn curve(curve: &Curve, path: Path, faults: &mut List) {
     }
 }
 
-/// Why points make no curve.
+/// Reason why points do not make a curve.
 pub fn misshapen(points: &[(f64, f64)]) -> Option<String> {
     match points[..] {
         [] | [_] => Some(format!("but there are only {}", points.len())),

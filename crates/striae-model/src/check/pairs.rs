@@ -104,7 +104,7 @@ pub(super) fn textures(pair: &Pair, friction: &Friction) -> Option<FaultKind> {
     })
 }
 
-/// Why two surfaces make no pair, with the side that is to blame where it is one.
+/// Reason why two surfaces do not make a pair, with the side responsible if there is one.
 fn impossible_sides(draft: &Draft<'_>, pair: &Pair) -> Vec<(Option<&'static str>, FaultKind)> {
     let without_surface = |(side, name): (&ContactSurface, &'static str)| {
         let ContactSurface::Rigid(rigid) = side else {
@@ -123,7 +123,7 @@ fn impossible_sides(draft: &Draft<'_>, pair: &Pair) -> Vec<(Option<&'static str>
     wrong
 }
 
-/// Why two surfaces cannot touch each other.
+/// Reason why two surfaces cannot touch each other.
 fn wrong_together(draft: &Draft<'_>, pair: &Pair) -> Option<FaultKind> {
     let name = || pair.name.clone();
     let not_itself = |found| FaultKind::NotItself {

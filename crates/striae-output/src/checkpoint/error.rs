@@ -1,11 +1,11 @@
-//! Why a run cannot be taken up again.
+//! Reasons why a run cannot be resumed.
 
 use std::{io, path::PathBuf};
 
 use super::{FILE, FORMAT};
 use crate::OutputError;
 
-/// Why a run cannot be taken up again.
+/// Reason why a run cannot be resumed.
 #[derive(Debug, thiserror::Error)]
 pub enum CheckpointError {
     /// There is no checkpoint.
@@ -14,7 +14,7 @@ pub enum CheckpointError {
         folder.display()
     )]
     Missing {
-        /// Where it was looked for.
+        /// Folder that was searched.
         folder: PathBuf,
     },
     /// The run was completed.

@@ -53,10 +53,10 @@ impl Index {
         }
     }
 
-    /// That of the checkpoint of a folder, or of the end of a completed run.
+    /// Index of the checkpoint of a folder, or of the end of a completed run.
     ///
     /// # Errors
-    /// When there is none, or none that can be used.
+    /// If there is none, or none that can be used.
     pub fn read_last(folder: &Path) -> Result<Self, CheckpointError> {
         let end = folder.join(END);
         match (Self::read(folder), fs::read(&end)) {

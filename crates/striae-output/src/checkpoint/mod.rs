@@ -50,11 +50,11 @@ pub const FORMAT: u64 = 20;
 /// A run under way.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Checkpoint {
-    /// Which deck is run.
+    /// Deck that is run.
     pub source: Source,
     /// Record of the files on disk.
     pub written: Written,
-    /// Where the run is.
+    /// Point that the run has reached.
     pub point: Point,
 }
 

@@ -40,7 +40,8 @@ pub(super) struct Entries {
 #[derive(Serialize, Deserialize)]
 struct Values {
     states: [[Vec3; VECTORS]; 2],
-    /// Where it was before the last increment and the one before, as far as they lead on.
+    /// Positions before the last increment and before the one preceding it, as far as they are
+    /// continued.
     course: Vec<Vec3>,
 }
 
@@ -166,7 +167,7 @@ impl Entries {
     }
 }
 
-/// How many variables each element of the whole remembers, by body; collective.
+/// Number of internal variables of each element of the whole, by body; collective.
 fn counts(problem: &Problem) -> Vec<Vec<usize>> {
     let bodies = problem.compositions.iter().zip(&problem.model.bodies);
     let own = bodies.enumerate().map(|(body, (composition, model))| {

@@ -20,22 +20,22 @@ pub struct Expected {
 pub struct Quantity {
     /// Name, as in histories.
     pub name: String,
-    /// Where the quantity must lie.
+    /// Range in which the quantity must lie.
     pub target: Target,
-    /// Where the target comes from.
+    /// Source of the target.
     pub source: String,
     /// Unit, for the reader only.
     pub unit: String,
 }
 
-/// Where a quantity must lie.
+/// Range in which a quantity must lie.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Target {
     /// Near a value.
     Value {
         /// The value.
         value: f64,
-        /// How near.
+        /// Allowed distance.
         tolerance: Tolerance,
     },
     /// Between two values, both included.
@@ -47,7 +47,7 @@ pub enum Target {
     },
 }
 
-/// How near a quantity must be to its expected value.
+/// Allowed distance of a quantity from its expected value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Tolerance {
     /// Largest difference.

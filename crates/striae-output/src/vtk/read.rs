@@ -24,7 +24,7 @@ const SECTION: &[u8] = b"<AppendedData encoding=\"raw\">";
 pub struct Stored {
     /// The file, or the pieces.
     files: Vec<OneFile>,
-    /// How pieces fit together; `None` where there is one file.
+    /// Joint of the pieces; `None` if there is one file.
     joint: Option<Joint>,
     /// Time of the state.
     pub time: f64,
@@ -33,7 +33,7 @@ pub struct Stored {
 /// One file.
 struct OneFile {
     bytes: Vec<u8>,
-    /// Where the appended section begins, behind its underscore.
+    /// Start of the appended section, behind its underscore.
     section: usize,
     arrays: Vec<Described>,
     time: f64,

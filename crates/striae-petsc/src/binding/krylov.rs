@@ -25,7 +25,7 @@ const FAILED: ffi::Code = 76;
 /// A linear function from vectors to vectors, that may fail.
 pub(crate) type Linear<'a> = dyn FnMut(&[f64], &mut [f64]) -> Result<(), Error> + 'a;
 
-/// How iterations ended.
+/// Ending of the iterations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Ended {
     /// Their number.

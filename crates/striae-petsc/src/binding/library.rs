@@ -134,7 +134,7 @@ pub(super) fn world() -> MPI_Comm {
     SimpleCommunicator::world().as_raw()
 }
 
-/// This rank alone.
+/// Communicator of this rank alone.
 pub(super) fn alone() -> MPI_Comm {
     SimpleCommunicator::self_comm().as_raw()
 }

@@ -16,7 +16,7 @@ pub enum Contact {
     Open,
 }
 
-/// How the upper block is held.
+/// Support of the upper block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Top {
     Held,

@@ -23,7 +23,7 @@ pub const GREY: Color = [0.80, 0.81, 0.84];
 /// Values whose spread over their size is below this are equal.
 const EQUAL: f64 = 1e-6;
 
-/// How much of a surface is seen that one sees through.
+/// Opacity of transparent surfaces.
 const VEIL: f64 = 0.32;
 
 /// All surfaces of a picture.
@@ -201,7 +201,7 @@ fn pressed(part: &Part) -> Vec<bool> {
     }
 }
 
-/// How dark edges are: less where they are close to each other.
+/// Darkness of edges: less if they are close to each other.
 pub fn darkness(ends: &[[[f64; 3]; 2]]) -> f64 {
     let lengths = ends.iter().map(|[a, b]| (a[0] - b[0]).hypot(a[1] - b[1]));
     let mean = lengths.sum::<f64>() / ends.len().max(1) as f64;
@@ -316,7 +316,7 @@ fn points(field: &Field) -> Vec<Vec<f64>> {
         .collect()
 }
 
-/// Where the nodes of a part are.
+/// Positions of the nodes of a part.
 fn places(part: &Part, parts: &[Part], magnification: f64) -> Vec<[f64; 3]> {
     if let Some((body, nodes)) = &part.follows {
         let body = places(&parts[*body], &[], magnification);

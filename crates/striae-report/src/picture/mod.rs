@@ -44,7 +44,7 @@ pub struct Picture {
     pub time: Option<f64>,
     /// From the place of the eye to what is seen; the third axis points upwards.
     pub direction: [f64; 3],
-    /// How much displacements are magnified.
+    /// Magnification of displacements.
     pub magnification: f64,
     /// Bodies and surfaces that are left out.
     pub hidden: Vec<String>,

@@ -26,7 +26,7 @@ pub(super) fn agreed<T>(problem: &Problem, found: Result<T, CutBack>) -> Result<
         .expect("what is not told has failed on all ranks"))
 }
 
-/// Where a fault is met: contact is looked at first, then elements, then loads.
+/// Order in which faults are met: contact first, then elements, then loads.
 fn place(problem: &Problem, fault: &CutBack) -> (usize, usize, usize) {
     match fault {
         CutBack::InvertedElement { body, element } => {

@@ -1,8 +1,8 @@
 //! All terms of a pair in the system.
 //!
-//! Where nothing is tied and no body that moves answers contact, a term is a dense block
-//! whose rows and columns are unknowns as they are. Of all other terms blocks are made one
-//! by one, with ties eliminated. What contact has in the tangent is the sum of all blocks.
+//! If nothing is tied and no moving body reacts to contact, a term is a dense block whose rows and
+//! columns are unknowns of the system. All other terms are made into blocks one by one, with ties
+//! eliminated. The contribution of contact to the tangent is the sum of all blocks.
 
 use rayon::prelude::*;
 use striae_condensed::{Growth, Partition};
@@ -130,7 +130,7 @@ impl System<'_> {
         }
     }
 
-    /// Where a term belongs, leaving out prescribed rows and those that other ranks add.
+    /// Places of a term, without prescribed rows and those that other ranks add.
     fn placed<'t>(&self, pair: usize, term: &'t LocalTerm) -> PlacedBlock<'t> {
         let is_free = |&(_, row): &(usize, &u32)| {
             let axis = *row as usize % 3;

@@ -50,7 +50,7 @@ pub struct ContactAssembled {
 /// to grow.
 ///
 /// # Errors
-/// Why contact cannot be evaluated.
+/// Returns why contact cannot be evaluated.
 pub fn assemble_contact(
     setting: &Setting,
     background: &Background,

@@ -61,7 +61,7 @@ enum Kind {
 }
 
 impl System<'_> {
-    /// How the point of the body on the other side of a position follows that body.
+    /// Tie of the point of the body on the other side of a position to that body.
     pub(super) fn against(&self, slot: &Slot) -> Option<Tie> {
         let (node, _) = slot.position?;
         let body = self.moving[slot.against?].as_ref()?;

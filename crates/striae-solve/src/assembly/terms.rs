@@ -52,7 +52,7 @@ impl Answer {
     }
 }
 
-/// Where a triple of unknowns of a pair is in the system.
+/// Places of a triple of unknowns of a pair in the system.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Triple {
     /// The first of its unknowns.

@@ -29,7 +29,7 @@ use crate::{
     rigid::{Wrench, turn_tangent},
 };
 
-/// How a tied node follows its body.
+/// Dependence of a tied node on its body.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tie {
     pub(super) rigid: usize,
@@ -43,13 +43,13 @@ pub(super) struct Tie {
 pub(super) struct Moving {
     rigid: usize,
     first: usize,
-    /// Where the reference point is.
+    /// Position of the reference point.
     point: Vec3,
     tangent: Matrix3<f64>,
 }
 
 impl Moving {
-    /// How a point at `x` follows the body.
+    /// Tie of a point at `x` to the body.
     pub(super) fn tie(&self, x: &Vec3) -> Tie {
         Tie {
             rigid: self.rigid,

@@ -19,7 +19,7 @@ pub enum InitialFault {
         node: NodeId,
         /// Name of the one that it is inside of.
         other: String,
-        /// Where it is.
+        /// Position of the place.
         at: Vec3,
         /// Depth.
         depth: f64,
@@ -42,7 +42,7 @@ pub enum InitialFault {
         node: NodeId,
         /// Name of the one that it is inside of.
         other: String,
-        /// Where it is.
+        /// Position of the place.
         at: Vec3,
         /// Depth.
         depth: f64,
@@ -87,7 +87,7 @@ pub enum InitialFault {
         other: String,
         /// The node.
         node: NodeId,
-        /// Where it is.
+        /// Position of the place.
         at: Vec3,
         /// Rigid surface that is a side, if one is.
         rigid: Option<String>,
@@ -106,7 +106,7 @@ pub enum InitialFault {
         other: String,
         /// Number of facets that lie opposite.
         count: usize,
-        /// Where the large one is.
+        /// Position of the large facet.
         at: Vec3,
     },
     /// Moving nodes would turn an element inside out.
@@ -126,9 +126,9 @@ pub enum InitialFault {
 /// Tells if nodes of a pair have been moved to close its gaps and overlaps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Closing {
-    /// They have not.
+    /// Gaps have not been closed.
     Open,
-    /// They have.
+    /// Gaps have been closed.
     Made,
 }
 

@@ -39,7 +39,7 @@ fn comes_near(model: &Model, pair: PairId, fit: &Fit) -> bool {
     left.is_none_or(|left| left <= ROUND_OFF * fit.distance)
 }
 
-/// How far prescribed displacements take a body; `None`: anywhere.
+/// Distance that prescribed displacements move a body; `None` if it is unlimited.
 fn body_reach(model: &Model, body: BodyId) -> Option<f64> {
     let tied = |(other, _): &(BodyId, Vec<_>)| *other == body;
     if model
@@ -70,7 +70,7 @@ fn body_reach(model: &Model, body: BodyId) -> Option<f64> {
     farthest
 }
 
-/// How far prescribed coordinates take a rigid surface; `None`: anywhere.
+/// Distance that prescribed coordinates move a rigid surface; `None` if it is unlimited.
 fn rigid_reach(model: &Model, rigid: RigidId) -> Option<f64> {
     let mut farthest = 0.0_f64;
     for step in &model.steps {

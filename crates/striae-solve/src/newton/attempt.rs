@@ -33,7 +33,8 @@ use crate::{
     state::State,
 };
 
-/// How often an increment is solved again with nodes that it turned out to need.
+/// Number of times that an increment is solved again with additional nodes that it turned out to
+/// need.
 const REPETITIONS: usize = 3;
 
 /// An increment under way.
@@ -59,7 +60,7 @@ pub(super) struct Attempt<'a> {
     pub(super) overlaps: Vec<BodyOverlap>,
     /// Criterion by which the latest state is accepted, at the end.
     pub(super) acceptance: Acceptance,
-    /// Which pairs are closed in the latest state.
+    /// Pairs that are closed in the latest state.
     closed: Vec<bool>,
     /// Rules of the first iteration.
     first: Iteration,

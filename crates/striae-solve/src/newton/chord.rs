@@ -17,7 +17,7 @@ use crate::{
 
 /// Residual from which on a state is evaluated without derivatives first.
 const LATE: f64 = 3e-3;
-/// How many corrections with an earlier tangent are as cheap as one with a new one.
+/// Number of corrections with an earlier tangent that cost as much as one with a new one.
 const CORRECTIONS: i32 = 2;
 
 /// Derivatives needed of the state that a correction from the residual `norm` leads to.

@@ -1,4 +1,4 @@
-//! Where an increment starts from: what those before it lead to.
+//! Start of an increment, extrapolated from the previous ones.
 //!
 //! In a step that goes on as it did, positions and tractions change smoothly. An increment of
 //! the size `dt` starts where the last state and the one or two before it in the same step
@@ -129,7 +129,7 @@ impl Course {
     }
 }
 
-/// How the last states are weighed.
+/// Weights of the last states.
 struct Weights {
     /// `dt/dt_0`.
     ratio: f64,
@@ -151,7 +151,7 @@ impl Weights {
         }
     }
 
-    /// Where a quantity is led to by its last two or three values.
+    /// Extrapolation of a quantity from its last two or three values.
     fn on(&self, now: f64, last: f64, older: Option<f64>) -> f64 {
         let [c_1, c_2] = self.quadratic;
         match older {

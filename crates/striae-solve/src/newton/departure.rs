@@ -1,4 +1,4 @@
-//! Where bodies start from that leave each other in one increment.
+//! Start of bodies that separate in one increment.
 //!
 //! The first iteration is linearised with closed contact. A body that is moved by more than
 //! it overlaps with another would drag that other along and be turned inside out. Where two
@@ -63,8 +63,7 @@ pub(super) fn first_positions(
     positions
 }
 
-/// How far what is prescribed moves each body on average, zero for bodies that are tied.
-/// Collective.
+/// Mean prescribed motion of each body, zero for tied bodies. Collective.
 fn mean_moves(context: &StepContext, state: &State, imposed: &Imposed) -> Vec<Vec3> {
     let problem = context.problem;
     let bodies = problem.model.bodies.len();

@@ -1,4 +1,4 @@
-//! Where the energy of an increment goes.
+//! Balance of the energy of an increment.
 //!
 //! With the displacements `d` of an increment, the forces at its ends 0 and 1 and
 //! the weight `a` of the start (`a_f` of the time integration, 1/2 in quasi-static
@@ -372,7 +372,7 @@ struct Pushing<'a> {
     positions: &'a [Vec3],
     /// Of the body at both ends.
     poses: [&'a Pose; 2],
-    /// Which end it is.
+    /// Number of the end.
     end: usize,
 }
 

@@ -64,7 +64,7 @@ fn found(setting: &Setting, trial: &Trial, pair: usize) -> Vec<Interference> {
     beyond(found, meant_depth(problem, pair), SHARE)
 }
 
-/// Where everything is at the start of the increment and in the trial state.
+/// Positions at the start of the increment and in the trial state.
 fn ends<'a>(setting: &Setting<'a>, trial: &'a Trial) -> [Positions<'a>; 2] {
     let end = Positions {
         nodes: &trial.positions,

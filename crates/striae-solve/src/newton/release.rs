@@ -18,7 +18,7 @@ use crate::{
     state::State,
 };
 
-/// Which pairs are closed somewhere.
+/// Pairs that are closed somewhere.
 pub(super) fn closed(contacts: &[Evaluation]) -> Vec<bool> {
     contacts
         .iter()

@@ -13,11 +13,11 @@ pub struct LinearWork {
     pub contact_corrections: usize,
     /// Iterations of GMRES.
     pub krylov_iterations: usize,
-    /// How the last one was made.
+    /// Method of the last factorisation.
     pub method: Method,
-    /// Why the solver that was asked for was not used in the last one.
+    /// Reason why the requested solver was not used in the last one.
     pub fall_back: Option<FallBack>,
-    /// Where the time went.
+    /// Time spent on each part.
     pub times: Times,
 }
 

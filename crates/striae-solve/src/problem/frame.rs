@@ -33,10 +33,10 @@ pub(crate) struct Frame {
 }
 
 impl Frame {
-    /// That of a whole model.
+    /// Frame of a whole model.
     ///
     /// # Errors
-    /// When a tie or a pair is none.
+    /// If a tie or a pair is not valid.
     pub(crate) fn new(model: Model) -> Result<Self, ProblemError> {
         let ties = Ties::new(&model).map_err(|mut faults| ProblemError::Tie(faults.remove(0)))?;
         let placed = (!ties.is_empty()).then(|| ties.moved(model.clone()));

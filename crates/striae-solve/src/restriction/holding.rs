@@ -1,4 +1,4 @@
-//! Which of the whole a rank holds, who owns it, and which other ranks hold it as well.
+//! Parts of the whole that a rank holds, their owners, and the other ranks that hold them.
 
 use striae_mesh::{ElementId, NodeId, Vec3};
 

@@ -48,10 +48,10 @@ impl Division {
         ))
     }
 
-    /// That of rank 0 for all ranks of a team.
+    /// Division that rank 0 makes for all ranks of a team.
     ///
     /// # Errors
-    /// When the library for graphs fails.
+    /// If the library for graphs fails.
     pub fn agreed(model: &Model, team: &dyn Team) -> Result<Self, SolveError> {
         let own = match team.rank() {
             0 => Some(Self::new(model, team.size())),
@@ -104,7 +104,7 @@ impl Division {
         }
     }
 
-    /// How many ranks there are.
+    /// Number of ranks.
     pub fn ranks(&self) -> usize {
         self.ranks
     }
@@ -125,7 +125,7 @@ impl Division {
     }
 }
 
-/// How many elements each body has.
+/// Number of elements of each body.
 fn counts(model: &Model) -> impl Iterator<Item = usize> {
     model.bodies.iter().map(|body| body.mesh.element_count())
 }

@@ -20,7 +20,7 @@ pub struct Together {
     table: Arc<Table>,
 }
 
-/// Where the ranks lay down what they give.
+/// Table on which the ranks place their contributions.
 struct Table {
     round: Mutex<Round>,
     complete: Condvar,

@@ -2,7 +2,7 @@
 
 use striae_mesh::{ElementId, Vec3};
 
-/// Why a tie cannot hold.
+/// Reason why a tie cannot hold.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TieFault {
     /// A side is no surface of a body.
@@ -53,7 +53,7 @@ pub enum TieFault {
         gap: f64,
         /// Distance relative to the facet size.
         share: f64,
-        /// Where.
+        /// Position.
         at: Vec3,
     },
     /// No node is left that could follow.
@@ -63,7 +63,7 @@ pub enum TieFault {
     Loose {
         /// The tie.
         tie: String,
-        /// Why.
+        /// Reason.
         reason: &'static str,
     },
     /// Ties that follow each other in a circle.
@@ -84,7 +84,7 @@ pub enum TieFault {
         tie: String,
         /// The body.
         body: String,
-        /// How far nodes are moved.
+        /// Distance that nodes are moved.
         moved: f64,
         /// The first such element.
         element: ElementId,

@@ -33,8 +33,8 @@ pub(super) struct Patch {
 }
 
 impl Patch {
-    /// That of the rows of a facet; `global` tells the nodes of the facet's side and of the
-    /// other one, `follows` whether a node does in a component.
+    /// Patch of the rows of a facet; `global` numbers the nodes of the facet's side and of the
+    /// other one, `follows` tells whether a node is dependent in a component.
     pub(super) fn new(
         facet: &FacetRows,
         global: [&[GlobalNode]; 2],

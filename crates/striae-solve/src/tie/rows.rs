@@ -336,7 +336,7 @@ pub(super) fn contact_pair(sides: [(&Mesh, &[Face]); 2], within: Option<f64>) ->
     }
 }
 
-/// Why surfaces do not meet, if they do not.
+/// Reason why surfaces do not meet, if they do not.
 fn unmet(
     model: &Model,
     tie: &str,

@@ -19,7 +19,7 @@ use striae_solve::{
     warning::Judgement,
 };
 
-/// How far numbers may be apart, over the largest one of their kind.
+/// Largest difference of two numbers, relative to the largest one of their kind.
 const CLOSE: f64 = 1e-8;
 
 /// Output of a run.
@@ -28,7 +28,7 @@ pub struct Told {
     pub ending: String,
     /// Iterations of every increment, and where it ended.
     pub increments: Vec<(usize, f64)>,
-    /// Why increments were cut.
+    /// Reasons why increments were cut.
     pub cuts: Vec<String>,
     /// Names of numbers that belong together, and the numbers.
     pub numbers: Vec<(String, Vec<f64>)>,

@@ -17,7 +17,7 @@ use striae_solve::assembly::StepContext;
 use striae_surface::node::SurfaceNode;
 use striae_verify::{Difference, Random, derivative::directional};
 
-/// Where all nodes of a model and its rigid surface are.
+/// Positions of all nodes of a model and its rigid surface.
 #[derive(Clone)]
 pub struct Places {
     pub positions: Vec<Vec3>,
@@ -56,7 +56,7 @@ pub struct PairFunction<'a> {
     tau_n: [Vec<[f64; 2]>; 2],
     /// Status in the iteration before, by kept node.
     pub before: Vec<Status>,
-    /// Which positions are prescribed.
+    /// Positions that are prescribed.
     pub prescribed: Prescribed,
     pub selection: Selection,
     pub iteration: Iteration,

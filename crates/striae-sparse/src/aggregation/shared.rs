@@ -16,7 +16,7 @@ pub use super::aggregates::NONE;
 pub struct Coarsening {
     /// Aggregate of every node, [`NONE`] where smoothing alone does.
     pub aggregates: Vec<u32>,
-    /// How many there are.
+    /// Number of aggregates.
     pub count: usize,
     /// Orthonormal columns on every aggregate, `N` rows by six a node.
     pub columns: Vec<f64>,

@@ -15,7 +15,7 @@ const MEMBERS: usize = 128;
 /// Marker of a block outside the pattern.
 const NOWHERE: u32 = u32::MAX;
 
-/// Where the blocks between the members of cliques belong in the matrices of a structure.
+/// Positions of the blocks between the members of cliques in the matrices of a structure.
 #[derive(Clone, Debug)]
 pub struct CliquePlaces {
     /// Members of each clique.

@@ -3,7 +3,7 @@
 use crate::node::SurfaceNode;
 use striae_mesh::FacetId;
 
-/// Why a texture cannot be painted or convected; nodes are numbered as in the surface.
+/// Reason why a texture cannot be painted or convected; nodes are numbered as in the surface.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum TextureError {
     /// A list has another length than the surface has nodes.
@@ -11,7 +11,7 @@ pub enum TextureError {
     Count {
         /// Name of the listed quantity.
         what: &'static str,
-        /// How many are given.
+        /// Number given.
         found: usize,
         /// Nodes of the surface.
         nodes: usize,

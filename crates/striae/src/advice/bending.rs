@@ -1,7 +1,7 @@
 //! Thin bodies that bend, with elements too long for it.
 //!
-//! Where a linear element of length `l` bends, it shears: in a body of the thickness `t`
-//! the spurious energy over that of bending is
+//! Linear elements that bend also shear: in a body of the thickness `t` the spurious energy over
+//! that of bending is
 //!
 //! ```text
 //! G (l/t)^2 / E = (l/t)^2 / (2 (1 + nu)),

@@ -1,8 +1,8 @@
 //! Surfaces that go on smoothly beyond the facets of a pair.
 //!
-//! Where a facet of the pair and a neighbour outside it make an angle of less than 40 degrees
-//! at their common edge, contact can roll or spread over the edge, onto facets that no pair
-//! knows. It does where the body turns, or where the other side comes that far.
+//! If a facet of the pair and a neighbour outside it make an angle of less than 40 degrees at their
+//! common edge, contact can roll or spread over the edge, onto facets that no pair knows. It does
+//! where the body turns, or where the other side comes that far.
 
 use std::collections::{BTreeMap, BTreeSet};
 

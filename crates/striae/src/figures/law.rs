@@ -17,7 +17,7 @@ const POINTS: u32 = 500;
 
 /// A friction of a model.
 pub struct Named<'a> {
-    /// Where it holds, in words.
+    /// Place where it holds, in words.
     pub title: String,
     /// Name of its pair, and of the step that changes it.
     pub file: String,

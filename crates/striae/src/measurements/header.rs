@@ -5,14 +5,14 @@ use striae_model::nearest;
 
 use super::{COLUMNS, Form, MeasurementFault, NamedColumn, fault, lines::Separator};
 
-/// Which field of a line is which quantity.
+/// Assignment of the fields of a line to quantities.
 pub(super) struct Header {
     separator: Separator,
     /// Names of the fields, or their numbers where no line names them.
     names: Vec<String>,
     /// Quantities with their fields.
     fields: Vec<(&'static str, usize)>,
-    /// How the fields are named.
+    /// Naming of the fields.
     naming: Naming,
 }
 

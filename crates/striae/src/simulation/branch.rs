@@ -33,7 +33,7 @@ use crate::{
 /// Fraction from which on a step is done.
 const DONE: f64 = 1.0;
 
-/// Where a run takes up the steps of another deck.
+/// Point at which a run continues with the steps of another deck.
 enum TakenUp {
     /// After so many steps.
     After(usize),
@@ -113,8 +113,8 @@ impl Simulation {
     }
 }
 
-/// Where a checkpoint takes up the steps of a model, which gets the part of a step that is done
-/// and that it states otherwise.
+/// Point at which a checkpoint continues with the steps of a model; the model gets the completed
+/// part of a step that it states differently.
 fn continued(model: &mut Model, index: &Index) -> Result<TakenUp, Error> {
     let (source, (under_way, fraction)) = (index.source(), index.reached());
     let is_done = fraction >= DONE;

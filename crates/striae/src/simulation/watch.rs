@@ -30,7 +30,7 @@ pub(super) struct Watch<'a> {
     pub(super) before: State,
     /// Increments that have converged since the undeformed state.
     pub(super) increments: usize,
-    /// Why nothing could be written any more.
+    /// Reason why nothing could be written any more.
     pub(super) failure: Option<OutputError>,
 }
 

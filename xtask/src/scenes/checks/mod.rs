@@ -65,7 +65,7 @@ pub const NAMES: [&str; 16] = [
 pub struct Worst {
     /// Value over the bound.
     pub measure: f64,
-    /// Where.
+    /// Place.
     pub place: String,
 }
 

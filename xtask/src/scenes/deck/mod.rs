@@ -20,7 +20,7 @@ impl Placement {
         rotation(self.axis, self.degrees.to_radians())
     }
 
-    /// Where a point comes to.
+    /// Image of a point.
     pub fn point(&self, x: Vector) -> Vector {
         plus(applied(&self.matrix(), x), self.shift)
     }

@@ -23,7 +23,8 @@ struct Laid {
     softest: f64,
 }
 
-/// Where the middle of the block is, and its width, over the half width and the width of the base.
+/// Position of the centre of the block, and its width, over the half width and the width of the
+/// base.
 struct Place {
     middle: [f64; 2],
     share: [f64; 2],

@@ -43,9 +43,9 @@ pub struct Dialect {
 /// Support of a key by the program.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Choice {
-    /// It has.
+    /// The program has the key.
     Known,
-    /// It has not.
+    /// The program does not have the key.
     #[default]
     Unknown,
 }

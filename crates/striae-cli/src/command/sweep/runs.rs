@@ -26,11 +26,11 @@ const PAUSE: Duration = Duration::from_millis(50);
 /// State or end of a run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Outcome {
-    /// It has not begun.
+    /// The run has not begun.
     Waiting,
-    /// It has completed.
+    /// The run has completed.
     Done,
-    /// It has not.
+    /// The run has failed.
     Failed {
         /// Exit code; none if a signal ended it, or it did not start.
         code: Option<i32>,

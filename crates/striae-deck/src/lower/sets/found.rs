@@ -3,7 +3,7 @@
 /// Members that a definition selects.
 pub(super) struct Found<T> {
     pub(super) members: Vec<T>,
-    /// Why there may be none.
+    /// Reason why there may be none.
     pub(super) hint: Option<String>,
 }
 

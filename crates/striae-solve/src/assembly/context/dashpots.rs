@@ -29,8 +29,8 @@ use crate::{
     state::State,
 };
 
-/// How far the first increment would go beyond the gap without contact, over the gap or, if that
-/// is less, the facet size.
+/// Penetration of the gap by the first increment without contact, over the gap or, if that is less,
+/// the facet size.
 const BEYOND: f64 = 0.1;
 /// Largest coefficient over `E T/h`.
 const LARGEST: f64 = 1e-3;

@@ -11,8 +11,8 @@ pub enum Acceptance {
     /// Its residual is below the tolerance.
     #[default]
     Converged,
-    /// It goes back and forth over a jump of the integrals of contact, and no state is nearer to a
-    /// solution.
+    /// The iterations oscillate across a jump of the integrals of contact, and no state is closer
+    /// to a solution.
     AtJump {
         /// The residual that is left.
         residual: f64,
