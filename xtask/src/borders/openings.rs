@@ -9,8 +9,9 @@ use std::path::Path;
 use crate::breach::Breach;
 
 /// Words that no paragraph may open with.
-const REFUSED: [&str; 7] = [
-    "What", "Whether", "The same", "Those", "It is", "It does", "Who",
+const REFUSED: [&str; 15] = [
+    "What", "Whether", "Who", "Whose", "How", "Where", "Which", "Why", "The same", "That", "Those",
+    "This", "These", "It", "They",
 ];
 
 /// Paragraphs of a source file, Rust or Python, that open with a refused word.
