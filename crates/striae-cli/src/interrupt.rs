@@ -24,7 +24,7 @@ pub fn prepare() {
     }
 }
 
-/// Listens to interrupts: the first one stops the run under way, the second one ends
+/// Listens to interrupts: the first one stops the current run, the second one ends
 /// the program.
 pub fn listen() -> Interrupt {
     let interrupt = Interrupt::default();

@@ -39,10 +39,10 @@ impl Crew {
 /// Options of runs on several ranks.
 #[derive(clap::Args)]
 pub struct Options {
-    /// Solve with PETSc also where there is one rank only; needs a build with the feature `petsc`.
+    /// Solve with PETSc even on a single rank; needs a build with the feature `petsc`.
     #[arg(long)]
     petsc: bool,
-    /// Options for PETSc, such as "-striae_ksp_monitor"; they come after those of the variable PETSC_OPTIONS.
+    /// Options for PETSc, such as "-striae_ksp_monitor"; they follow those of the variable PETSC_OPTIONS.
     #[arg(long, value_name = "OPTIONS", allow_hyphen_values = true)]
     petsc_options: Option<String>,
 }

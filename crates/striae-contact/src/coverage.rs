@@ -82,6 +82,8 @@ impl Configuration<'_> {
                 place: Place::Plane(x - normal * gap),
             });
         }
+        // Rows against a rigid surface use its normals, so its normal is the direction of the gap,
+        // too.
         let ray = if self.pair.is_rigid() {
             Ray::Opposite
         } else {
@@ -106,6 +108,8 @@ impl Configuration<'_> {
         node: SurfaceNode,
         on: impl Fn(FacetId) -> bool,
     ) -> Option<(Contact, Found)> {
+        // Frames against rigid surfaces are those of the projection, which is needed beside the
+        // edge as well, but not far from it.
         let far = if self.pair.is_rigid() {
             FOLLOW
         } else {
@@ -149,6 +153,8 @@ impl Configuration<'_> {
         let around = own.surface.corners(node).iter();
         let depths = around.map(|corner| self.pair.sides[side].depth(corner.facet));
         let opposing = &self.pair.sides[self.pair.opposing(side)];
+        // Behind its own body by more than half the thickness, a node faces the back of another
+        // layer.
         !self.is_corner(side, node, facet) && -gap <= depths.fold(opposing.depth(facet), f64::min)
     }
 
@@ -178,6 +184,7 @@ impl Configuration<'_> {
         match self.contact(side, node, HORIZON * reach) {
             Some(contact) if contact.gap.abs() <= reach => Coverage::Near(contact),
             Some(_) => Coverage::Far,
+            // An unbounded plane cannot be missed.
             None if self.plane().is_some() => Coverage::Far,
             None => Coverage::Missed,
         }

@@ -84,6 +84,8 @@ impl Pivots {
             self.place[n as usize] = at as u32 + 1;
         }
         let mut done = 0;
+        // Once the pivot is below the floor its exact value decides nothing; the rest stays
+        // pending.
         while done < pending.len() && pivot.value >= floor {
             let block = &pending[done..pending.len().min(done + BLOCK)];
             self.append(&mut pivot, k, block);

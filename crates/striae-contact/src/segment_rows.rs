@@ -166,6 +166,8 @@ impl Moved {
         let n = paired.segment.normal;
         let old = |corner: usize| start.side(Side::A).x[paired.corners[0][corner]];
         if configuration.pair.is_rigid() {
+            // Moving the old position with the rigid surface makes slip independent of any rigid
+            // motion of both.
             let carried = |x: Vec3| {
                 let material = start.placement.back(&x);
                 configuration.placement.point(&material)
@@ -184,6 +186,8 @@ impl Moved {
                 on_plane,
             };
         }
+        // Differences from a near point: sums of absolute positions would lose digits far from the
+        // origin.
         let origin = old(0);
         let x: [Vec3; 8] = std::array::from_fn(|d| match d {
             0..4 => old(d),
@@ -196,6 +200,8 @@ impl Moved {
                 shape,
             }
         };
+        // Facets that did not face each other at the start have no common normal then; what is
+        // tangential now is the best substitute.
         let n_old = normal_between(&facet(0), &facet(4), weights).unwrap_or(n);
         let tangential = Matrix3::identity() - n_old * n_old.transpose();
         let turned = Transported::new(&Vec3::zeros(), &n_old, &n);

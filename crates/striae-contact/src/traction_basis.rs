@@ -152,6 +152,8 @@ impl TractionBasis {
         let weak = (0..self.kept.len()).filter(|&k| self.pivots[k] < THETA_1);
         let weak = weak.filter_map(|k| {
             let pivot = self.pivots[k];
+            // A node kept by hysteresis may lie below the threshold; its ramp stays finite and
+            // positive.
             let over = (pivot - THETA_0).max(CLOSEST * THETA_0);
             let eps = RAMP * facing(interface, self.kept[k]) * (THETA_1 - pivot) / over;
             let row = departure(place(k)?, &released[k]);
@@ -209,6 +211,8 @@ fn departure(k: u32, released: &[Share]) -> Vec<Share> {
         return row;
     }
     let at = row.partition_point(|&(l, _)| l < k);
+    // The weights add up to zero, so the ramp vanishes on constant tractions and patch tests do not
+    // see it.
     row.insert(at, (k, [-others; 2]));
     row
 }

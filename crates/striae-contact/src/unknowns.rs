@@ -44,6 +44,7 @@ impl Tractions {
     pub fn accumulate(&mut self, nodes: &[Vec<NodeResult>; 2]) {
         let sums = self.accumulated.iter_mut().flatten();
         for (sum, node) in sums.zip(nodes.iter().flatten()) {
+            // The relative motion of an open node wears nothing.
             if node.status != Status::Open {
                 *sum += node.slip.norm();
             }
@@ -54,6 +55,8 @@ impl Tractions {
     pub fn label(&mut self, nodes: &[Vec<NodeResult>; 2]) {
         let found = || self.labels.iter().flatten().zip(nodes.iter().flatten());
         let slips = |status| status == Status::Slip;
+        // While other nodes begin or cease to slip, a swing of `|du|` may follow from them and says
+        // nothing about this node.
         let rests = found().all(|(label, node)| slips(label.status) == slips(node.status));
         let after = match rests {
             true => Label::after,
@@ -121,6 +124,7 @@ impl Label {
 
     /// Returns whether slip has oscillated, given the new `|du|`.
     pub(crate) fn goes_back_and_forth(&self, slip: f64) -> bool {
+        // Counted exactly, not at least: the node that sticks for this reason may slip again later.
         self.fell && self.rises_to(slip) && self.turns + 1 == Self::TURNS
     }
 

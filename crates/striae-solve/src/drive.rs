@@ -57,6 +57,7 @@ impl Continue {
             Self::Keep => 1.0,
             Self::Stop => 2.0,
         };
+        // Ranks that disagreed would wait for each other for ever.
         match share.largest(own) {
             0.0 => Self::Yes,
             1.0 => Self::Keep,
@@ -196,7 +197,9 @@ impl Division {
     fn converged(&mut self, fraction: f64, increment: &Increment, largest: f64) {
         self.count += 1;
         self.done = fraction;
+        // The larger search distance was for the motion of one increment, and costs time.
         self.search.clear();
+        // Corrections of contact alone are not among these iterations.
         if increment.iterations.len() <= EASY {
             self.size = (self.size * GROWTH).min(largest);
         }
@@ -234,6 +237,7 @@ impl Division {
         }
         increment.doubts = doubts(problem, before, &increment.state);
         let smaller = (fraction - self.done) * CUT;
+        // A doubt is no failure: rather than end the run, the increment is accepted with a warning.
         let may_be_cut = smaller >= problem.model.steps[context.index].increments.smallest;
         match increment.doubts.first() {
             Some(doubt) if may_be_cut && self.doubted < DOUBTS => {
@@ -253,6 +257,8 @@ impl Division {
         self.search.resize(context.pairs.len(), 0.0);
         for (known, search) in context.pairs.iter().zip(&mut self.search) {
             if known.name == *pair {
+                // The pair missed contact over this distance, so the next attempt has to look that
+                // far.
                 *search = search.max(*way);
             }
         }
@@ -321,6 +327,7 @@ fn run_step(
                 next
             }
             Err(reason) => {
+                // A body without restraint explains the failure better than a residual does.
                 let reason = free(context, state).unwrap_or(reason);
                 let size = (fraction - division.done) * CUT;
                 let helps = reason.remedy() == Remedy::SmallerIncrement;

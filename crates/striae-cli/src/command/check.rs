@@ -21,7 +21,7 @@ use striae_solve::{
 pub struct Arguments {
     #[command(flatten)]
     pub source: Source,
-    /// Print the same as JSON.
+    /// Print the result as JSON.
     #[arg(long)]
     pub json: bool,
 }

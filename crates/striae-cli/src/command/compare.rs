@@ -15,14 +15,14 @@ use crate::failure::Failure;
 /// Times over the last one that are the same.
 const SAME: f64 = 1e-9;
 
-/// Compare two runs: their endings and warnings, and their histories at the times that both have.
+/// Compare two runs: their endings and warnings, and their histories at common times.
 #[derive(clap::Args)]
 pub struct Arguments {
     /// Folder of the first run.
     a: PathBuf,
     /// Folder of the second run.
     b: PathBuf,
-    /// Part of the largest value of a column by which it may differ; beyond, the exit code is 1.
+    /// Difference allowed in a column, relative to its largest value; beyond it, the exit code is 1.
     #[arg(long, alias = "within", value_name = "PART", default_value = "1e-6", value_parser = part)]
     tolerance: f64,
 }

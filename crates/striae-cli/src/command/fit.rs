@@ -23,14 +23,14 @@ use crate::failure::Failure;
 
 /// Find the constants of a friction law from measurements.
 ///
-/// MEASUREMENTS is a text file with commas, semicolons or tabs between numbers, one reading a
-/// line, under a line with the names of columns: `angle`, the direction in which the textured
-/// surface slips, in degrees from its texture `a` (across the grooves, against a nap; of two
+/// MEASUREMENTS is a text file with one reading per line, numbers separated by commas, semicolons
+/// or tabs, below a line with the names of columns: `angle`, the direction in which the textured
+/// surface slips, in degrees from its texture `a` (across the grooves, against a nap; for two
 /// textures from the bisector of both; `--angle-from along` counts from the grooves);
-/// `friction`, tangential over normal force, or the forces `tangential` and `normal`; and where
-/// they are known `direction`, the angle of the force that drags the textured surface, `theta`,
+/// `friction`, the ratio of tangential to normal force, or the forces `tangential` and `normal`;
+/// and optionally `direction`, the angle of the force that drags the textured surface, `theta`,
 /// the angle between the textures of two surfaces, and `spread`, the standard deviation of a
-/// reading in proportion to others. Other columns are not used.
+/// reading in proportion to others. Other columns are ignored.
 #[derive(clap::Args)]
 pub struct Arguments {
     /// The file of measurements.
@@ -38,25 +38,25 @@ pub struct Arguments {
     /// The law.
     #[arg(long, value_enum)]
     law: LawName,
-    /// Direction of slip by the orthotropic law.
+    /// Slip rule of the orthotropic law.
     #[arg(long, value_enum, default_value = "opposing")]
     slip_rule: RuleName,
     /// Direction of slip at the angle 0: across the grooves (against a nap), or along them.
     #[arg(long, value_enum, default_value = "across")]
     angle_from: FromName,
-    /// A quantity that the file names otherwise, with the name or number of its column.
+    /// Column of a quantity, by name or number, if the file names it differently.
     #[arg(long, value_name = "QUANTITY=COLUMN", value_delimiter = ',')]
     columns: Vec<NamedColumn>,
-    /// Lines at the beginning of the file to pass over.
+    /// Number of lines to skip at the beginning of the file.
     #[arg(long, value_name = "COUNT", default_value_t = 0)]
     skip_lines: usize,
     /// Probability with which a constant lies in its interval.
     #[arg(long, default_value_t = 0.95)]
     level: f64,
-    /// Draws measurements and law; written as .svg, .png and .csv.
+    /// Plot measurements and law, as .svg, .png and .csv files.
     #[arg(long, value_name = "NAME.svg")]
     plot: Option<PathBuf>,
-    /// Print the same as JSON.
+    /// Print the result as JSON.
     #[arg(long)]
     json: bool,
 }

@@ -31,7 +31,7 @@ use coefficient::coefficient;
 /// Show the friction of a deck or of constants, as figures and numbers.
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// The deck, of which every friction is shown.
+    /// The deck; every friction law in it is shown.
     #[arg(required_unless_present = "constants")]
     deck: Option<PathBuf>,
     #[command(flatten)]
@@ -44,12 +44,12 @@ pub struct Arguments {
     /// Folder for the figures; by default results/NAME, or results/law without a deck.
     #[arg(short, long, alias = "output")]
     out: Option<PathBuf>,
-    /// Print the numbers as JSON, and draw nothing.
+    /// Print the numbers as JSON, without figures.
     #[arg(long)]
     json: bool,
 }
 
-/// A friction in the words of a deck, without a deck.
+/// A friction law stated as in a deck, without a deck.
 #[derive(clap::Args)]
 #[group(id = "constants", multiple = false, conflicts_with = "deck")]
 struct Constants {

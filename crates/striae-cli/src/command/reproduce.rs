@@ -38,10 +38,10 @@ pub struct Arguments {
     /// Run all cases.
     #[arg(long)]
     all: bool,
-    /// Leave out what takes long.
+    /// Skip the runs that take long.
     #[arg(long)]
     quick: bool,
-    /// Enforcement of contact in all pairs; nothing is judged then.
+    /// Enforcement of contact in all pairs; results are then not judged.
     #[arg(long)]
     enforcement: Option<Enforcement>,
     /// Folder for the output, with a folder for each case.
@@ -54,9 +54,9 @@ pub struct Arguments {
 /// Enforcement of contact.
 #[derive(Clone, Copy, clap::ValueEnum)]
 enum Enforcement {
-    /// Gaps and slips in the mean, one traction field for both sides.
+    /// Mean gaps and slips, one traction field for both sides.
     Weighted,
-    /// The paper's own fields, rows at nodes.
+    /// The method of the paper: a field on each side, gaps and slips at nodes.
     Collocated,
 }
 
@@ -123,7 +123,7 @@ fn list(out: &mut dyn Write) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Runs a case, prints and writes what came of it. A run that stops is a failed
+/// Runs a case, prints and writes its results. A run that stops is a failed
 /// case, not the end of the program.
 fn reproduced(
     case: &Case,

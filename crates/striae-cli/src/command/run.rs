@@ -40,13 +40,13 @@ pub struct Arguments {
 /// Option to write a report.
 #[derive(clap::Args)]
 pub struct Reported {
-    /// Write report.html beside the results, again and again as the run goes on.
+    /// Write report.html beside the results, and update it during the run.
     #[arg(long)]
     report: bool,
 }
 
 impl Reported {
-    /// The folder of which a report is made, if one is.
+    /// The folder to report on, if a report is requested.
     pub fn of(&self, folder: &Path) -> Option<PathBuf> {
         self.report.then(|| folder.to_owned())
     }
@@ -55,10 +55,10 @@ impl Reported {
 /// Options of everything that runs simulations.
 #[derive(clap::Args)]
 pub struct Common {
-    /// Number of threads; by default that of the machine, and one a rank where there are several.
+    /// Number of threads; by default that of the machine, or one per rank if there are several.
     #[arg(long)]
     threads: Option<std::num::NonZeroUsize>,
-    /// Say nothing but errors and results.
+    /// Print only errors and results.
     #[arg(long)]
     quiet: bool,
     /// Show the residual norms of every iteration.
@@ -111,7 +111,7 @@ impl Common {
     }
 }
 
-/// Runs the deck and prints what came of it.
+/// Runs the deck and prints the result.
 pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     let crew = Crew::start(&arguments.ranks)?;
     let result = run_on(arguments, &crew, out);
@@ -139,7 +139,7 @@ fn run_on(arguments: &Arguments, crew: &Crew, out: &mut dyn Write) -> Result<(),
     finish(simulation.over(existing), &folder, common, report, out)
 }
 
-/// Runs, and tells what came of it where this rank speaks.
+/// Runs, and prints the result if this rank prints.
 pub fn finish(
     simulation: Simulation,
     folder: &Path,
@@ -177,7 +177,7 @@ pub fn watched(
     Ok(finished)
 }
 
-/// Prints what came of a run.
+/// Prints the result of a run.
 pub fn concluded(
     finished: Finished,
     folder: &Path,

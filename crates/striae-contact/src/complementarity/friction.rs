@@ -42,6 +42,7 @@ pub(super) fn tangential(
 ) -> (Status, [TangentialRow; 2]) {
     let z = [Q::variable(z1, TRACTION + 1), Q::variable(z2, TRACTION + 2)];
     if state.friction.is_frictionless() {
+        // Without friction the rows state `z = 0`, which no status changes.
         return (Status::Slip, z.map(traction));
     }
     let rate = match iteration {
@@ -57,6 +58,8 @@ pub(super) fn tangential(
         mobility: Mobility::new(state),
         size: configuration.size(state.node.side, state.node.node),
         begun: match state.node.before.status {
+            // From the right of the solution, at the smallest friction, Newton's method converges
+            // monotonically; from rest it may move away.
             Status::Open | Status::Stick if state.node.before.begun % 2 == 1 => {
                 state.varpi(Rate::Weakest)
             }
@@ -87,6 +90,8 @@ impl Friction<'_> {
     /// In the first iteration: nodes that slipped go on.
     fn first(&self) -> (Status, [TangentialRow; 2]) {
         let [z1, z2] = self.z.map(|z| z.re);
+        // Only nodes still near the slip surface continue to slip; one far inside has been
+        // unloaded.
         if self.state.node.slipped && z1.hypot(z2) > 0.5 * self.least_radius() {
             (Status::Slip, self.continued())
         } else {
@@ -97,6 +102,7 @@ impl Friction<'_> {
     /// In a later one: `y` decides.
     fn later(&self, r: f64) -> (Status, [TangentialRow; 2]) {
         let before = &self.state.node.before;
+        // Only the first time, as the reduced tangent costs quadratic convergence.
         let begins = before.status != Status::Slip && before.begun == 0;
         let slips = match &self.mobility {
             Mobility::Along(way) => {
@@ -173,6 +179,7 @@ impl Friction<'_> {
     fn slips(&self, length: f64, radius: f64, y: [f64; 2]) -> bool {
         let [first, second] = &self.state.turned;
         let before = &self.state.node.before;
+        // The slip found would be against the direction of friction that it was computed with.
         let around = first.re * y[0] + second.re * y[1] < 0.0;
         let du = self.state.slip[0].re.hypot(self.state.slip[1].re);
         let sticks = self.state.friction.weakens()
@@ -236,6 +243,7 @@ impl Friction<'_> {
 
     /// No slip.
     fn resting(&self, slip: Q) -> TangentialRow {
+        // Stick residuals are lengths and are measured by the facet size, not by a pressure.
         (Field::Stick(self.size), slip.re, slip.slope)
     }
 }
@@ -276,9 +284,12 @@ const BEGINNING: f64 = 0.3;
 
 /// `f beta` for `|z|` and its part along `y`, by which the tangent of a node is reduced along `y`.
 fn reduction(length: f64, along: f64, radius: f64, begins: bool) -> f64 {
+    // The last bound avoids 0/0 at a node that has neither traction nor friction.
     let f = along / radius.max(length).max(f64::MIN_POSITIVE);
     let whole = f * damping(length, along, radius);
     match begins {
+        // A body held by friction alone would lose all tangential stiffness when all its nodes
+        // begin to slip in one iteration.
         true => whole.min(1.0 - BEGINNING),
         false => whole,
     }
@@ -292,6 +303,7 @@ fn damping(length: f64, along: f64, radius: f64) -> f64 {
     } else {
         1.0
     };
+    // Traction against the slip direction may make the undamped Jacobian indefinite.
     if alpha < 0.0 {
         1.0 / (1.0 - alpha * delta)
     } else {
@@ -309,6 +321,7 @@ fn slip(z: &[Q; 2], y: &[Q; 2], limit: &Q, begins: bool) -> [TangentialRow; 2] {
     let reduced = reduction(zv.norm(), zv.dot(&direction), radius, begins);
     let along = zv.dot(&direction);
     let f = match along == 0.0 {
+        // The quotient below would be 0/0.
         true => Matrix2::zeros(),
         false => zv * direction.transpose() * (reduced / along),
     };

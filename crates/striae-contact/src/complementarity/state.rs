@@ -113,6 +113,8 @@ impl<'a> NodeState<'a> {
             component
         };
         let of_slip = [0, 1].map(|axis| component(axis, &slip.value, node.frame.t[axis].value));
+        // The law works on `K^-1 du`: in these variables the slip surface is a circle, or a table
+        // over one angle.
         let turned = [0, 1].map(|axis| {
             let t = node.frame.t[axis].value;
             let mut component = component(axis, &turned, k_inverse.tr_mul(&t));

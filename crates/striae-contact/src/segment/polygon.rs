@@ -93,6 +93,7 @@ impl Outline {
             let along = (window.places[window.after(edge)] - start).normalize();
             for corner in 0..self.len() {
                 let distance = along.perp(&(self.places[corner] - start));
+                // Exactly zero, so that all tests of one corner against one edge agree.
                 distances[corner][edge] = if distance.abs() <= tolerance {
                     0.0
                 } else {
@@ -119,6 +120,7 @@ pub(super) fn common(a: &Outline, b: &Outline, tolerance: f64) -> Vec<Vertex> {
     let mut alone = b.inside(&of_b, a);
     for i in a.inside(&of_a, b) {
         let (place, own) = (a.places[i], a.corners[i]);
+        // Both corners were snapped to the edges of the other by up to the tolerance each.
         let near = |j: &usize| (b.places[*j] - place).norm() <= 2.0 * tolerance;
         vertices.push(match alone.iter().position(near) {
             Some(found) => {
@@ -157,6 +159,7 @@ fn crossing(
     let (i_end, j_end) = (a.after(i), b.after(j));
     let [d, d_end] = [of_a[i][j], of_a[i_end][j]];
     let [e, e_end] = [of_b[j][i], of_b[j_end][i]];
+    // Strictly on both sides: where a corner lies on the edge, the corner itself is the vertex.
     if !(d * d_end < 0.0 && e * e_end < 0.0) {
         return None;
     }
@@ -190,6 +193,8 @@ fn in_order(vertices: Vec<Vertex>) -> Vec<Vertex> {
 
 /// Grows with the angle of a vector, from 0 to 4.
 fn direction(v: &Vec2) -> f64 {
+    // Monotone in the angle like `atan2`, but with exactly rounded operations only, which are the
+    // same on every machine.
     let along = v.x / (v.x.abs() + v.y.abs());
     if v.y >= 0.0 { 1.0 - along } else { 3.0 + along }
 }

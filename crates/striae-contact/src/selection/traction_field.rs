@@ -97,6 +97,8 @@ impl Selection {
         });
         let ramp = own.unwrap_or(0.0) / self.weight(k);
         if flexibility > 0.0 {
+            // Scaling factors only: solutions do not depend on them, the path of the iterations
+            // does.
             [1.0 / (flexibility + ramp), 1.0 / (0.1 * flexibility + ramp)]
         } else {
             [0.0; 2]
@@ -193,6 +195,8 @@ impl Selection {
         configuration: &Configuration,
     ) -> Vec<(Side, SurfaceNode)> {
         let scope = Scope {
+            // Bodies that approached faster than foreseen may already be deeper than the search of
+            // this increment.
             depth: self.depth.max(approach(start, configuration)),
             ..self.scope()
         };

@@ -82,6 +82,7 @@ impl<'a> Attempt<'a> {
             tractions,
         } = selected(context, state, s);
         workspace.prepare(context.problem, &selections);
+        // Work of an attempt that failed is not that of this one.
         workspace.take_work();
         let rigid = workspace.first_poses(imposed);
         let trial = Trial {
@@ -103,6 +104,7 @@ impl<'a> Attempt<'a> {
             interferences: Vec::new(),
             overlaps: Vec::new(),
             acceptance: Acceptance::default(),
+            // Until contact has been evaluated nothing is known to have opened.
             closed: vec![true; context.pairs.len()],
             first: Iteration::First,
             chord: Chord::default(),
@@ -126,6 +128,8 @@ impl<'a> Attempt<'a> {
     /// collective.
     pub(super) fn follow(&mut self, course: &Course, time: f64) {
         let leave = self.trial.positions != self.state.positions;
+        // Bodies that separate start from moved positions; extrapolating as well would move them
+        // twice. All ranks have to decide alike.
         if !self.context.problem.share.any(leave) {
             course.follow(self.context, self.state, time, &mut self.trial);
             self.first = Iteration::LATER;
@@ -161,12 +165,14 @@ impl Attempt<'_> {
             let Some(reason) = missed else {
                 break;
             };
+            // Selections could alternate for ever between two sets of nodes.
             if repetition == REPETITIONS {
                 return Err(reason);
             }
             let found = reselected(&self.setting(), &self.trial, &assembled.contacts);
             assembled = self.taken_up(found, workspace)?;
         }
+        // Only at the end: trial states on the way may pass through each other without harm.
         self.interferences = passage(&self.setting(), &self.trial, &assembled.contacts)?;
         self.overlaps = overlap(&self.setting(), &self.trial)?;
         Ok(assembled)
@@ -221,6 +227,7 @@ impl Attempt<'_> {
                     self.acceptance = Acceptance::Converged;
                     return Ok(assembled);
                 }
+                // Further iterations are requested where solvers are compared beyond the tolerance.
                 further -= 1;
             }
             if settled && self.jumps() {
@@ -248,12 +255,15 @@ impl Attempt<'_> {
         self.chord.corrects(assembled);
         let correction = match assembled.derivatives {
             Derivatives::First => workspace.correction(residual, part),
+            // The matrix still holds an older tangent, and its factors serve.
             Derivatives::None => workspace.chord_correction(residual, part),
         };
         let correction = correction
             .map_err(|error| linear_system(context.problem, workspace.system().numbers(), error))?;
         let derivatives = self.wanted(assembled, iteration);
         let at_rest = match iteration {
+            // Late corrections are cheap already, and the first iteration of a step linearises
+            // closed contact.
             Iteration::Later { .. } if derivatives == Derivatives::First => {
                 let at = (&self.trial, assembled);
                 contact_at_rest(workspace, &self.setting(), at, &correction, before)?
@@ -316,6 +326,8 @@ impl Attempt<'_> {
             (true, true) => {
                 let share = &self.context.problem.share;
                 let to_go = share_to_go(share, &self.trial, self.state, self.imposed);
+                // After an extrapolated start the residual can be small although prescribed nodes
+                // still have to move.
                 Some(norm.max(to_go))
             }
             (true, false) => None,
@@ -342,6 +354,7 @@ impl Attempt<'_> {
         self.selections = selected.selections;
         self.trial.tractions = selected.tractions;
         workspace.extend(self.context.problem, &self.selections);
+        // New unknowns are a new problem: its iterations deserve the usual weights first.
         self.ladder.restart(self.iterations.len());
         self.assembled(workspace, self.next_iteration())
     }

@@ -49,6 +49,7 @@ impl Chord {
     pub(super) fn serves(&self, assembled: &Assembled, tolerance: f64) -> bool {
         let norm = assembled.norms.largest();
         let rate = norm / self.norm;
+        // Corrections with one tangent all reduce the residual by the rate of the last one.
         norm * rate.powi(CORRECTIONS) <= tolerance && self.holds(assembled)
     }
 
@@ -66,6 +67,8 @@ pub(super) fn share_to_go(share: &Share, trial: &Trial, state: &State, imposed: 
         [&trial.positions, &state.positions].map(|x| (end - x[node][axis]).abs())
     });
     let mut most = ways.fold([0.0; 2], |sum: [f64; 2], way| {
+        // The largest, not the mean: one node that still has to move is enough to distrust the
+        // residual.
         [0, 1].map(|at| sum[at].max(way[at]))
     });
     share.team().largest(&mut most);

@@ -70,6 +70,8 @@ impl Course {
     /// Returns whether an increment from `state` continues this one.
     pub(super) fn leads_on(&self, context: &StepContext, state: &State) -> bool {
         let semismooth = context.problem.model.solver.strategy == Strategy::Semismooth;
+        // Loads bend at the start of a step, and the paper's strategy predicts stick from the
+        // converged state.
         semismooth && self.step == context.index && self.end == state.time
     }
 
@@ -108,6 +110,7 @@ impl Course {
                 }
             };
         }
+        // Extrapolated dependent nodes need not satisfy their ties.
         problem.ties.follow(&mut trial.positions);
         for (pair, tractions) in trial.tractions.iter_mut().enumerate() {
             for side in Side::BOTH {
@@ -116,6 +119,8 @@ impl Course {
                     let now = state.pairs[pair].tractions.nodes[side][node];
                     let last = self.tractions[pair][side][node];
                     // Roles that change leave another field.
+                    // A pressure that was zero has a kink, across which a line would predict
+                    // tension.
                     if *unknowns == now && now[0] > 0.0 && last[0] > 0.0 {
                         let older = before.map(|before| before.tractions[pair][side][node]);
                         let older = older.filter(|older| older[0] > 0.0);

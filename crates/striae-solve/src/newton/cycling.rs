@@ -35,6 +35,7 @@ impl History {
     pub(super) fn goes_back_and_forth(&self) -> bool {
         let last = &self.topologies[self.topologies.len().saturating_sub(WINDOW)..];
         match last {
+            // A change that never occurred before is progress, not a cycle.
             [earlier @ .., before, now] => before != now && earlier.contains(now),
             _ => false,
         }

@@ -48,6 +48,7 @@ pub(super) fn released(
             | CutBack::LinearSystem { .. }
     );
     let procedure = context.problem.model.steps[context.index].procedure;
+    // With inertia a body without contact flies, which is a solution.
     if !may_be || procedure != Procedure::QuasiStatic {
         return None;
     }

@@ -43,6 +43,7 @@ pub(super) fn contact_at_rest(
         return Ok(None);
     }
     let tolerance = setting.context.problem.model.solver.tolerance;
+    // The nonlinearity of the bodies leaves an error of the order of the square of the norm anyway.
     let enough = before.map_or(AT_REST, |norm| (LEFT * norm * norm).max(0.1 * tolerance));
     let background = &assembled.background;
     let mut whole = correction.to_vec();
@@ -58,6 +59,8 @@ pub(super) fn contact_at_rest(
         if pass == MOST || found.norms.largest() <= enough {
             let contact = Contact::Known(found.contacts);
             let assembled = workspace.assemble_with(contact, setting, &next, Derivatives::First);
+            // The prediction on linear bodies can be worse than none; then the plain correction is
+            // taken.
             let is_better = |found: &Assembled| found.norms.largest() <= before.unwrap_or(1.0);
             let better = evaluated(assembled)?.filter(is_better);
             return Ok(better.map(|assembled| (next, assembled)));

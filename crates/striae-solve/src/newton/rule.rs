@@ -46,6 +46,8 @@ pub(super) fn later(strategy: Strategy, inflation: Inflation, number: usize) -> 
 fn slip_weight(number: usize) -> f64 {
     match number {
         0..=13 => 1.0,
+        // First contact has no length scale: if active sets cycle, smaller increments do not help,
+        // but another weight does.
         14..=26 => 0.03,
         _ => 10.0,
     }
@@ -66,6 +68,8 @@ const LARGEST_PART: f64 = 1e-3;
 /// small as bodies that are not linear let it be.
 pub(super) fn part(norm: Option<f64>, tolerance: f64) -> f64 {
     norm.map_or(REDUCTION, |norm| {
+        // Quadratic convergence squares the norm, so a hundredth of it is enough; beyond the
+        // tolerance accuracy is wasted.
         (0.01 * norm).max(0.1 * tolerance / norm).min(LARGEST_PART)
     })
 }

@@ -55,7 +55,7 @@ impl Outcome {
     }
 }
 
-/// Runs under way.
+/// Runs in progress.
 struct Runs<'s> {
     interrupt: &'s Interrupt,
     alive: Mutex<BTreeMap<usize, Child>>,

@@ -47,6 +47,7 @@ impl Attempt<'_> {
     /// fall, no status changes, and the vertices of a polygon are alternately that corner and two
     /// crossings. No solution is closer than the jump then.
     pub(super) fn jumps(&self) -> bool {
+        // The jump is at most that part of a facet; a larger residual has another cause.
         const LARGEST: f64 = 0.1 * ON_EDGE;
         let Some(from) = self.iterations.len().checked_sub(WINDOW) else {
             return false;
@@ -55,6 +56,7 @@ impl Attempt<'_> {
         let least = last.clone().fold(f64::INFINITY, f64::min);
         let most = last.fold(0.0, f64::max);
         most <= LARGEST
+            // A residual that still falls may get below the tolerance.
             && least > 0.5 * most
             && self.history.goes_back_and_forth()
             && self
@@ -65,6 +67,8 @@ impl Attempt<'_> {
 
     /// Decides whether to continue, and returns the reason if not.
     pub(super) fn judge(&self, number: usize, norms: &Norms) -> Result<(), CutBack> {
+        // The force norm is relative to the forces of the model, so 1e8 is out of reach of any
+        // converging iteration.
         if !norms.largest().is_finite() || norms.force > 1e8 {
             return Err(CutBack::Diverged {
                 iteration: number,
