@@ -65,7 +65,7 @@ class BodySet:
                 targets[axis] = check.number(value, "xyz"[axis])
         along = check.curve(curve, "curve")
         if along != "ramp" and all(target is None for target in targets):
-            raise refuse("curve", "components that are functions have no curve besides")
+            raise refuse("curve", "components given as functions take no curve")
         body, name = self.body.name, self.name
 
         def apply(step: native.Step) -> None:

@@ -77,7 +77,7 @@ class SweepError(RuntimeError):
     """Parameters of the failed combination, by name, in their units."""
 
     def __init__(self, parameters: dict[str, Any], cause: str) -> None:
-        """Makes the exception from parameters and a message."""
+        """Makes the exception from parameters and the message of a cause."""
         told = ", ".join(f"{name} = {value!r}" for name, value in parameters.items())
         super().__init__(f"with {told or 'no parameters'}: {cause}")
         self.parameters = parameters

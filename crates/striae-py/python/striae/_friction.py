@@ -457,9 +457,9 @@ def _series(kernel: Callable[[float], Sequence[npt.ArrayLike]], law: str) -> lis
             return terms
     raise refuse(
         law,
-        "the kernel is no smooth function of the angle between the textures: its Fourier series"
-        f" has not ended after {SAMPLES[-1] // 4} terms; mind that the bisector turns back where"
-        " textures become opposed, so what points along it must vanish there",
+        "the kernel is not a smooth function of the angle between the textures: its Fourier series"
+        f" has not ended after {SAMPLES[-1] // 4} terms; note that the bisector reverses where"
+        " textures become opposed, so components along it must vanish there",
     )
 
 

@@ -107,7 +107,7 @@ class Run(Sequence[Increment]):
 
     @property
     def reason(self) -> str:
-        """How the run ended, in a sentence."""
+        """Ending of the run, in a sentence."""
         return self._native.reason
 
     @property
