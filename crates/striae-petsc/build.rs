@@ -1,4 +1,4 @@
-//! Finds PETSc, where it is asked for.
+//! Finds PETSc, if requested.
 
 use std::{env, process::Command};
 

@@ -94,7 +94,7 @@ impl Part {
     }
 }
 
-/// Builds the tests and the program and runs what is asked for, or all.
+/// Builds the tests and the program and runs the requested parts, or all.
 ///
 /// # Errors
 /// Returns what is missing, or the first test that fails.

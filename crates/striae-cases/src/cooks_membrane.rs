@@ -10,7 +10,7 @@ use super::{
 use crate::failure::Failure;
 
 const DECKS: [(&str, &str); 3] = decks!("cooks-membrane": "plane-stress", "plane-strain", "rubber");
-/// Places on the free edge that are looked at, and published displacements of them.
+/// Places on the free edge at which displacements are compared, and their published displacements.
 const PUBLISHED: [(f64, f64); 3] = [(30.0, 23.96), (38.0, 32.27), (38.0, 7.77)];
 /// The decks have a thousandth of the published loads.
 const LOAD: f64 = 1e-3;

@@ -1,8 +1,8 @@
 //! `edge-release`: a punch that slides off the edge of a base, and one that is lifted
 //! and pressed again.
 //!
-//! The force while sliding off has to be continuous. Nodes come and go at the start of
-//! an increment, so a jump lies between two values. It is told from smooth change by
+//! The force while sliding off has to be continuous. Nodes come and go at the start of an
+//! increment, so a jump lies between two values. The jump is distinguished from smooth change by
 //! lines through the two values before and the two after it, taken to the middle:
 //!
 //! ```text
@@ -289,7 +289,7 @@ impl Scene {
         START + share * (way[0] - START)
     }
 
-    /// Distance along x and force over that pressed, at the increments asked for.
+    /// Distance along x and force relative to that after pressing, at the requested increments.
     fn curve(&self, run: &Run, way: [f64; 2]) -> Vec<[f64; 2]> {
         const INCREMENTS: f64 = 200.0;
         let pressed = run.at_end_of(2, NORMAL);

@@ -1,8 +1,8 @@
 //! `hertz-mindlin`: a block with a spherical face on a rigid plane.
 //!
-//! Pressed without friction and then sheared with it, on a family of meshes.
-//! Pressure and friction are held against Mindlin's closed form, evaluated with
-//! the computed resultants `P` and `Q`, around the computed centre of pressure.
+//! Pressed without friction and then sheared with it, on a family of meshes. Pressure and friction
+//! are compared with Mindlin's closed form, evaluated with the computed resultants `P` and `Q`,
+//! around the computed centre of pressure.
 //!
 //! Effects that the closed form neglects are removed one by one: a sphere of a hundred times the
 //! radius under a hundredth of the depth has a contact zone of equal size and a hundredth of the
@@ -35,7 +35,7 @@ const TETRAHEDRAL_SIZES: [f64; 3] = [0.8, 0.56, 0.4];
 /// Meshes of about 3 000 and 13 000 unknowns that show what forces cost: name of the
 /// quantity, element size and half width of the fine part.
 const ECONOMICAL: [(&str, f64, f64); 2] = [("3k", 0.5, 1.4), ("13k", 0.25, 1.6)];
-/// Element size at which parts of the difference are told apart.
+/// Element size at which parts of the difference are separated.
 const PARTED: f64 = 0.2;
 /// Radius within which the pressure is smooth, over that of the contact zone.
 const INNER: f64 = 0.7;
@@ -85,7 +85,7 @@ const WIDE: [&str; 2] = [
     "size = [10, 10], height = 6.5",
     "size = [20, 20], height = 13",
 ];
-/// Cells of ten nodes in the place of hexahedra.
+/// Decks with ten-node tetrahedra instead of hexahedra.
 const TETRAHEDRA: [&str; 2] = [
     "radius = 1200,",
     r#"radius = 1200, cells = "composite-tetrahedra","#,

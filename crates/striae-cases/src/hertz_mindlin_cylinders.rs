@@ -1,9 +1,9 @@
 //! `hertz-mindlin-cylinders`: two half cylinders in plane strain, pressed and sheared.
 //!
-//! Half widths of the contact and stick zones are those of ellipses fitted to
-//! the pressure, and to what the friction falls short of `mu p` in the stick
-//! zone; the largest friction is `mu` times the fitted pressure at its edge.
-//! Errors are told apart into those around the edges of both zones and the rest.
+//! Half widths of the contact and stick zones are those of ellipses fitted to the pressure, and to
+//! what the friction falls short of `mu p` in the stick zone; the largest friction is `mu` times
+//! the fitted pressure at its edge. Errors are separated into those around the edges of both zones
+//! and the rest.
 
 use striae_contact::{side::Side, unknowns::Status};
 use striae_figure::{Axis, Color, Content, Figure, Marker, Panel, Series, Width};

@@ -1,9 +1,8 @@
 //! `hertz-mindlin-two-body`: a block with a spherical face on a deformable foundation.
 //!
-//! Shows friction and slip in the contact plane while partial slip turns into
-//! full slip, beside collocated rows. Two variants
-//! tell where friction across the motion comes from: one without friction while it
-//! is pressed, and one of the same contact zone with a hundredth of the strains.
+//! Shows friction and slip in the contact plane while partial slip turns into full slip, beside
+//! collocated rows. Two variants show the origin of friction across the motion: one without
+//! friction while it is pressed, and one of the same contact zone with a hundredth of the strains.
 
 use striae_contact::side::Side;
 use striae_figure::{Axis, Color, Content, Figure, Marker, Panel, Series, Width};

@@ -41,7 +41,7 @@ impl Runner for Silent {
     }
 }
 
-/// A case under way.
+/// A case in progress.
 pub struct Study<'a> {
     /// Name of the case.
     pub case: &'a str,
@@ -86,7 +86,7 @@ impl<'a> Study<'a> {
         }
     }
 
-    /// Reads an embedded deck, and sets the enforcement of its pairs if one is asked for.
+    /// Reads an embedded deck, and sets the enforcement of its pairs if one is requested.
     pub fn deck(&self, name: &str, text: &str) -> Result<Deck, Failure> {
         let file = format!("cases/{}/{name}.toml", self.case);
         let mut deck = deck::parse(text, &file, Path::new("")).map_err(striae::Error::from)?;

@@ -63,7 +63,7 @@ pub enum Failure {
     /// A sweep that was interrupted.
     #[error("{0}")]
     Halted(String),
-    /// Numbers cannot vary as asked for.
+    /// Numbers cannot vary as requested.
     #[error("{0}")]
     Variation(String),
     /// Two runs differ.
@@ -105,11 +105,11 @@ pub enum Failure {
     )]
     #[error("{0}")]
     Petsc(String),
-    /// PETSc is asked for, but not built in.
+    /// PETSc is requested, but not built in.
     #[cfg(not(feature = "petsc"))]
     #[error("this program was built without PETSc; build it with `--features petsc`")]
     NoPetsc,
-    /// Another rank tells it.
+    /// Another rank reports it.
     #[cfg_attr(
         not(feature = "petsc"),
         allow(dead_code, reason = "only ranks fail so")

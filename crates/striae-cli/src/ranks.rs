@@ -67,10 +67,10 @@ mod together {
 
     /// Time that a rank that failed waits for the others before it ends them.
     const PATIENCE: Duration = Duration::from_secs(5);
-    /// Variables that tell a process that it is one of several.
+    /// Variables by which a process recognises that it is one of several.
     const STARTED: [&str; 3] = ["OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"];
 
-    /// The ranks, if there are several or PETSc is asked for.
+    /// The ranks, if there are several or PETSc is requested.
     #[derive(Clone, Debug)]
     pub struct Crew(Option<striae_petsc::Ranks>);
 
@@ -94,7 +94,7 @@ mod together {
     }
 
     impl Crew {
-        /// Starts MPI and PETSc where that is asked for.
+        /// Starts MPI and PETSc if requested.
         pub fn start(options: &Options) -> Result<Self, Failure> {
             let several = STARTED.iter().any(|name| env::var_os(name).is_some());
             if !several && !options.petsc && options.petsc_options.is_none() {
@@ -121,8 +121,8 @@ mod together {
             }
         }
 
-        /// Ends a command: a failure of all ranks is told by the first one. One that fails
-        /// alone says so and ends the others, which would wait for it.
+        /// Ends a command: the first rank reports a failure of all ranks. A rank that fails alone
+        /// reports it and ends the others, which would wait for it.
         pub fn ended(self, result: Result<(), Failure>) -> Result<(), Failure> {
             let (Err(failure), Some(ranks)) = (&result, &self.0) else {
                 return result;

@@ -53,7 +53,7 @@ const LARGEST: usize = 12 << 30;
 /// Operations of a factorisation above which the iterative solver is taken.
 const COSTLY: f64 = 3.5e12;
 
-/// Reduction of the residual by a solution, unless another one is asked for.
+/// Reduction of the residual by a solution, unless another one is requested.
 pub const REDUCTION: f64 = 1e-6;
 
 /// Solver that is tried first.
@@ -235,7 +235,7 @@ impl Automatic {
         }
     }
 
-    /// Plans the condensed solver in the place of the iterative one, if there is memory for it.
+    /// Plans the condensed solver instead of the iterative one, if there is memory for it.
     fn plan_direct(&mut self) -> Result<(), SolveError> {
         let is_planned = self.condensed.is_some() || self.lu.is_some();
         if self.iterative.is_none() || is_planned {
@@ -338,8 +338,8 @@ impl Automatic {
         Ok(analysis)
     }
 
-    /// The condensed solver, if it was chosen without a look at contact and is that of another
-    /// partition, too.
+    /// The condensed solver, if it was chosen independently of contact and also is that of another
+    /// partition.
     fn unchanged(&self, partition: &Partition) -> Option<&Condensed> {
         let condensed = self.condensed.as_ref()?;
         let (contact, bodies) = condensed.work();

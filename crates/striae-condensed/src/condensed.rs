@@ -135,7 +135,7 @@ impl Condensed {
         self.factor_contact(rows, scaling, (prescribed, precision), nothing)
     }
 
-    /// Eliminates what contact does not touch anew with the next matrix.
+    /// Makes the next matrix eliminate again what contact does not touch.
     pub(crate) fn forget_untouched(&mut self) {
         if let Some(numeric) = &mut self.numeric {
             numeric.contact = ContactSystem::default();

@@ -26,7 +26,7 @@ pub struct Factored {
 }
 
 impl Factored {
-    /// By a solver that knows no contact.
+    /// Report by a solver without contact.
     pub(crate) fn by(method: Method, report: FactorReport) -> Self {
         Self {
             factor_entries: report.factor_entries,

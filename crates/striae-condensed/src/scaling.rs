@@ -4,7 +4,7 @@ use crate::{entries::Kept, partition::Partition, tangent::Tangent};
 use rayon::prelude::*;
 use striae_sparse::{Equilibration, SolveError, check_finite, root, sparse_elimination::Row};
 
-/// Rows that a thread looks at at a time.
+/// Number of rows that a thread processes at a time.
 const ROWS: usize = 512;
 
 /// Factors from the diagonal of the bulk, for the condensed solver; `rows` are the entries

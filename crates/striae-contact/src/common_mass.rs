@@ -5,11 +5,10 @@
 //! D_kJ = integral N_k N_J over all common polygons,   w_k = integral N_k
 //! ```
 //!
-//! Sums of floating-point numbers depend on their order, and so would choices made
-//! from them. Nodes are therefore ordered by position first; of two sides with nodes
-//! at the same places that one goes first whose sorted nodes come first. Only
-//! surfaces that are alike to the last bit are told apart by their label, and then
-//! nothing but the label differs.
+//! Sums of floating-point numbers depend on their order, and so would choices made from them. Nodes
+//! are therefore ordered by position first; of two sides with nodes at the same places, the one
+//! whose sorted nodes come first goes first. Only surfaces that are equal to the last bit are
+//! distinguished by their label, and then nothing but the label differs.
 
 use std::cmp::Ordering;
 

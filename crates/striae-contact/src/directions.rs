@@ -23,8 +23,8 @@
 //! In a direction that is not kept the row of friction is `z = 0`, and slip there does not
 //! count. Directions are components along the nodal tangents and constant in an increment.
 //!
-//! Null vectors of a mass matrix fade by .27 from node to node: columns further than
-//! two couplings from a contested one bear on nothing.
+//! Null vectors of a mass matrix fade by .27 from node to node: columns further than two couplings
+//! from a contested one have no effect.
 
 mod gram;
 

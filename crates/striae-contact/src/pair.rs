@@ -19,7 +19,7 @@ pub struct ContactPair {
     pub sides: [PairedSurface; 2],
     /// Enforcement of contact.
     pub enforcement: Enforcement,
-    /// Distance over which contact is looked for ahead; `None`: half the local facet size.
+    /// Distance within which contact is searched; `None`: half the local facet size.
     pub search_distance: Option<f64>,
     /// Surfaces consist of faces, each with nodes of its own on the edges between them, so a node
     /// looks only at facets that face its own.
@@ -119,7 +119,7 @@ impl ContactPair {
     }
 
     /// Returns whether what lies between facets that face each other may be their own body. Its
-    /// skin, not the pair, then tells what is inside.
+    /// skin, not the pair, then determines what is inside.
     pub fn is_in_one_body(&self) -> bool {
         self.one_body || self.is_self_contact()
     }

@@ -4,8 +4,8 @@
 //! d_k = S_kk - S_kn S_nn^-1 S_nk,   n: kept nodes that couple with k
 //! ```
 //!
-//! Every candidate has its own Cholesky factor of `S_nn`, which grows by a row when
-//! a neighbour is kept and the pivot is asked for again. Pivots only fall.
+//! Every candidate has its own Cholesky factor of `S_nn`, which grows by a row when a neighbour is
+//! kept and the pivot is requested again. Pivots only fall.
 
 use crate::common_mass::SparseRow;
 

@@ -115,7 +115,7 @@ pub struct Segment {
     pub topology: u64,
     /// `D_cd`, symmetric.
     pub mass: [[f64; 8]; 8],
-    /// Derivatives, if asked for.
+    /// Derivatives, if requested.
     pub slopes: Option<Box<Slopes>>,
     /// Common polygon; `None` against a plane, where it is the whole facet.
     polygon: Option<Box<Polygon>>,
@@ -160,7 +160,7 @@ pub struct Slopes {
     /// `dn/dx_c`.
     pub normal: [Matrix3<f64>; 8],
     /// `dD_cd/dx`, row [`pair_index`]`(c, d)`, column `3 k + i` for `x_k . e_i`; empty unless all
-    /// derivatives are asked for.
+    /// derivatives are requested.
     pub mass: Vec<[f64; 24]>,
 }
 

@@ -52,7 +52,8 @@ pub struct CollapsedTexture {
     pub node: SurfaceNode,
 }
 
-/// Textures of all nodes that the friction law looks at. Nodes that face nothing have any.
+/// Textures of all nodes that the friction law depends on. Nodes that face nothing have arbitrary
+/// ones.
 ///
 /// # Errors
 /// When a convected texture has no direction left.

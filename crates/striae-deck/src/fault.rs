@@ -139,7 +139,7 @@ pub enum FaultKind {
         /// Value found.
         found: String,
     },
-    /// A text that is none of the words allowed.
+    /// A text that is not one of the allowed words.
     #[error("{place} cannot be `{found}`; expected one of {}{}", quoted(.allowed), did_you_mean(.nearest))]
     UnknownWord {
         /// The key and its table.

@@ -22,7 +22,7 @@ const KEY: &str = "include";
 /// Files that a deck includes at most, those of included files counted.
 const MOST: usize = 100;
 
-/// An included file, as it is still to be read.
+/// An included file that is still to be read.
 struct Wanted {
     span: Span,
     name: String,

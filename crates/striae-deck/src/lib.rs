@@ -1,9 +1,9 @@
 //! The deck: one TOML file that describes a whole simulation.
 //!
-//! Reading has two stages. The text becomes the tables of `raw`, in which every
-//! value has its form and its place in the text; these are lowered to the
-//! [`Model`], in which every name has become an id and every set its members.
-//! Both stages go on after a fault, so that [`Faults`] lists all there are.
+//! Reading has two stages. The text becomes the tables of `raw`, in which every value has its form
+//! and its place in the text; these are lowered to the [`Model`], in which every name has become an
+//! id and every set its members. Both stages continue after a fault, so that [`Faults`] lists all
+//! there are.
 //!
 //! [`write()`] goes the other way, from a model to a text that reads back to it, and
 //! [`convert()`] makes a deck of an Abaqus model.
@@ -62,7 +62,7 @@ impl Deck {
     /// The deck, for a run without ranks.
     ///
     /// # Errors
-    /// When it asks for a solver that only ranks have.
+    /// When it requires a solver that needs ranks.
     pub fn alone(self) -> Result<Self, Faults> {
         match self.together {
             Some(faults) => Err(*faults),

@@ -33,7 +33,7 @@ pub(crate) trait Read: Sized {
 
 /// A type that is read from some keys of a table.
 pub(crate) trait Part: Sized {
-    /// Takes its keys from the table, or `None` after faults that leave nothing to go on with.
+    /// Takes its keys from the table, or `None` after faults that leave nothing to continue with.
     fn part(table: &mut TableReader<'_, '_, '_>) -> Option<Self>;
     /// The compositions the keys may have.
     fn alternatives() -> Vec<Alternative>;
@@ -97,7 +97,7 @@ pub(crate) struct TableReader<'r, 'i, 's> {
     pub(crate) faults: &'r mut FaultList<'s>,
 }
 
-/// Reads a whole table; keys that nothing asked for are faults.
+/// Reads a whole table; keys that were not requested are faults.
 pub(crate) fn read_table<T: Part>(
     value: &Value<'_>,
     place: &Place,

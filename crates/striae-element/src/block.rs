@@ -53,8 +53,8 @@ pub trait ElementBlock: Debug + Send + Sync {
         response: &mut ElementResponse,
     ) -> Result<(), ElementError>;
 
-    /// Rate of the stored energy of an element at given positions by a change of its actuation,
-    /// times that change; its points have come to the variables given.
+    /// Rate of the stored energy of an element at given positions with respect to its actuation,
+    /// times the change of that; the variables of its points are given.
     ///
     /// # Errors
     ///
@@ -81,7 +81,7 @@ pub trait ElementBlock: Debug + Send + Sync {
     /// Angle by which an element is turned on average.
     fn rotation(&self, at: usize, x: &[Vec3]) -> f64;
 
-    /// Cauchy stress at the quadrature points, which have come to the variables given.
+    /// Cauchy stress at the quadrature points, whose variables are given.
     ///
     /// # Errors
     ///

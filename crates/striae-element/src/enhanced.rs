@@ -150,7 +150,7 @@ impl<const N: usize, const Q: usize> Reference<N, Q> {
         (0..Q).map(stress).collect()
     }
 
-    /// Enhanced deformation gradients of points that have come to the variables given.
+    /// Enhanced deformation gradients of points with given variables.
     pub(super) fn enhanced_gradients(
         &self,
         fields: &Fields<Q>,

@@ -7,14 +7,14 @@ use std::collections::{BTreeSet, HashMap, VecDeque};
 use crate::{ElementId, Face, Mesh, NodeId, Region, Vec3};
 
 impl Mesh {
-    /// Adds the set `all` of the facets of the boundary where there is none of that name.
+    /// Adds the set `all` of boundary facets if there is none of that name.
     pub fn name_all_facets(&mut self) {
         if self.facet_sets.get("all").is_none() {
             self.facet_sets.insert("all", self.boundary_faces());
         }
     }
 
-    /// Adds the set `all` of elements where there is none of that name.
+    /// Adds the set `all` of elements if there is none of that name.
     pub fn name_all_elements(&mut self) {
         if self.element_sets.get("all").is_none() {
             let elements = 0..self.element_count();

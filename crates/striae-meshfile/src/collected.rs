@@ -26,7 +26,7 @@ pub(super) struct Collected {
     pub(super) loose: Loose,
     /// Notes on parts of the file that were interpreted or replaced.
     pub(super) notes: Vec<String>,
-    /// The formulation that the elements of the file ask for.
+    /// The formulation that the elements of the file request.
     pub(super) asked: Option<Asked>,
     /// The instances whose numbers are raised, see `abaqus/names.rs`.
     pub(super) instances: Vec<String>,

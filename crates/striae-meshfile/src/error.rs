@@ -136,7 +136,7 @@ pub enum MeshFileFault {
         /// Its number of bytes.
         found: u64,
     },
-    /// The file holds nothing of what is looked for.
+    /// The file contains nothing of the kind that is read.
     #[error("expected {expected}, found none; {remedy}")]
     Empty {
         /// Content searched for.
@@ -147,7 +147,7 @@ pub enum MeshFileFault {
     /// A part that the file does not have.
     #[error("{}", no_part(name, known))]
     NoPart {
-        /// The name asked for.
+        /// The requested name.
         name: String,
         /// Names of its element sets and instances.
         known: Vec<String>,
@@ -155,7 +155,7 @@ pub enum MeshFileFault {
     /// Node data that are not there, or one of several that are.
     #[error("{}", node_data(name, known))]
     NodeData {
-        /// The name asked for.
+        /// The requested name.
         name: Option<String>,
         /// Names of all node data of the file.
         known: Vec<String>,

@@ -51,7 +51,7 @@ use collected::Collected;
 use std::path::Path;
 use striae_mesh::{Mesh, NodeId, Vec3};
 
-/// A rigid surface as it is read from a file.
+/// A rigid surface read from a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RigidSurfaceMesh {
     /// Node positions.
@@ -61,14 +61,14 @@ pub struct RigidSurfaceMesh {
     pub facets: Vec<[NodeId; 4]>,
 }
 
-/// The mesh of a body as it is read from a file.
+/// The mesh of a body read from a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reading {
     /// The mesh.
     pub mesh: Mesh,
     /// Notes on parts of the file that were interpreted or replaced, one line each.
     pub notes: Vec<String>,
-    /// The formulation that the elements of the file ask for.
+    /// The formulation that the elements of the file request.
     pub asked: Option<Asked>,
     /// Numbers of nodes and elements in the file.
     pub numbers: Numbers,
@@ -100,7 +100,7 @@ impl From<Mesh> for Reading {
     }
 }
 
-/// A formulation of elements that a letter in their name asks for.
+/// A formulation of elements that a letter in their name requests.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Asked {
     /// With a pressure of their own: `C3D8H`.
@@ -190,9 +190,8 @@ pub fn read_rigid_part(
 
 /// Reads vectors at nodes from a `.msh` or `.csv` file.
 ///
-/// Of the node data of a Gmsh file those called `name` are read, or the only ones.
-/// A list has a line `node,x,y,z` for every node, below these words; its name is
-/// not looked at.
+/// Of the node data of a Gmsh file those called `name` are read, or the only ones. A list has a
+/// line `node,x,y,z` for every node, below these words; its name is ignored.
 ///
 /// # Errors
 /// [`MeshFileError`] names the file and, where there is one, the line.

@@ -1,6 +1,6 @@
 //! Keywords of a file that no mesh is made of.
 
-/// A keyword of a file that bears on no mesh, such as a step or a contact pair.
+/// A keyword of a file that does not affect the mesh, such as a step or a contact pair.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unused {
     /// The keyword without its asterisk, in capitals.

@@ -44,8 +44,7 @@ pub(crate) struct Contact<'a> {
 }
 
 impl Collections {
-    /// Collections that go on from what has been written: bodies, contact, rigid surfaces,
-    /// ties.
+    /// Collections that continue what has been written: bodies, contact, rigid surfaces, ties.
     pub(crate) fn resumed(folder: &Path, series: &[Vec<Snapshot>; 4], sums: Checksums) -> Self {
         let [bodies, contact, rigid, ties] = series.clone();
         Self {
@@ -83,8 +82,8 @@ impl Collections {
         Ok(())
     }
 
-    /// Writes the bodies that are asked for, after so many increments; collective, as ranks
-    /// write their pieces.
+    /// Writes the requested bodies, after so many increments; collective, as ranks write their
+    /// pieces.
     pub(crate) fn write_bodies(
         &mut self,
         problem: &Problem,

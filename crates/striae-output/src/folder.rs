@@ -53,8 +53,7 @@ pub(crate) struct Claim {
 }
 
 impl Claim {
-    /// A folder with results, to go on with. What a run that was killed has not finished
-    /// writing is removed.
+    /// A folder with results, to continue. Unfinished files of a run that was killed are removed.
     pub(crate) fn of(folder: &Path) -> Result<Self, OutputError> {
         let file = File::open(folder).ok();
         let lock = file.as_ref().map(File::try_lock);
@@ -82,7 +81,7 @@ impl Claim {
         }
     }
 
-    /// A folder for a new run, made where there is none.
+    /// A folder for a new run, made if there is none.
     pub(crate) fn new(folder: &Path, existing: Existing) -> Result<Self, OutputError> {
         let fields = folder.join("fields");
         fs::create_dir_all(&fields).map_err(|cause| FileError::Write {

@@ -15,8 +15,7 @@
 //! DIR/checkpoint.bin        where a run under way is, see [`crate::checkpoint`]
 //! ```
 //!
-//! All are also written as they are at time 0; of contact, gaps, normals and textures are
-//! known then.
+//! All are also written at time 0; gaps, normals and textures of contact are known then.
 //!
 //! Everything is on disk after each increment.
 //!
@@ -128,7 +127,7 @@ impl Recorder {
         })
     }
 
-    /// Goes on where an earlier recorder was at a checkpoint.
+    /// Continues where an earlier recorder was at a checkpoint.
     ///
     /// # Errors
     /// When the output is not there, or cannot be written.

@@ -40,7 +40,7 @@ pub struct Summary {
     pub solver: SolverSummary,
     /// Time on the wall clock, s.
     pub wall_s: f64,
-    /// Largest resident memory, MiB, where the system tells.
+    /// Largest resident memory, MiB, if the system reports it.
     pub peak_rss_mib: Option<f64>,
     /// Contact pairs.
     pub pairs: Vec<PairSummary>,
@@ -103,7 +103,7 @@ pub struct SolverSummary {
     pub solution_s: f64,
     /// Seconds spent on contact with linearised bodies.
     pub contact_s: f64,
-    /// Accepted increments in which another solver stood in for the one that was asked for.
+    /// Accepted increments in which another solver replaced the requested one.
     pub fall_backs: usize,
     /// Reason of the last change of solver.
     pub reason: Option<String>,

@@ -30,7 +30,7 @@ pub(crate) struct Wanted<'a> {
     pub elapsed: f64,
 }
 
-/// Writes a side of a pair as it is in a state.
+/// Writes a side of a pair in a state.
 pub(crate) fn write_surface(
     path: &Path,
     problem: &Problem,

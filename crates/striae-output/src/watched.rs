@@ -16,7 +16,7 @@ pub(crate) struct Watched {
 }
 
 impl Watched {
-    /// Finds everything that is asked for, and continues the files after so many rows.
+    /// Finds everything that is requested, and continues the files after so many rows.
     ///
     /// # Errors
     /// Returns what is missing, or an error if there are no such rows.

@@ -15,7 +15,7 @@ use striae_condensed::{Partition, Tangent};
 use striae_solve::team::Team;
 use striae_sparse::aggregation::MODES;
 
-/// A part of the bulk, as it is scaled.
+/// A scaled part of the bulk.
 pub(crate) struct Bulk<'a> {
     pub(crate) partition: &'a Partition,
     pub(crate) nodes: &'a Nodes,

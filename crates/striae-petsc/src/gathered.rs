@@ -21,7 +21,8 @@ pub(crate) struct Gathered {
 }
 
 impl Gathered {
-    /// From what ranks tell of groups: node, tier, multipliers with both their numbers.
+    /// Builds it from the groups that ranks report: node, tier, multipliers with both their
+    /// numbers.
     pub(crate) fn new(words: impl Iterator<Item = u32>) -> Self {
         let mut gathered = Self {
             groups: Vec::new(),

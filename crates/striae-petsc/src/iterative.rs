@@ -21,7 +21,7 @@ use striae_sparse::{Age, Equilibration, SolveError, SolveReport, root};
 
 /// Iterations at most.
 const MOST: usize = 600;
-/// Times that the true residual is looked at.
+/// Number of times that the true residual is evaluated.
 const LOOKS: usize = 5;
 /// Reduction of the residual between looks; more is lost to round-off.
 const GAIN: f64 = 1e-10;

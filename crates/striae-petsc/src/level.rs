@@ -25,8 +25,8 @@ const COARSE: usize = MODES * MODES;
 /// The finest level: three unknowns a node.
 pub(crate) type Finest = Level<3, 9, { 3 * MODES }>;
 
-/// A matrix of `N` unknowns a node with a cycle in the place of its inverse. Blocks have
-/// `AREA` values, `N` by `N`, and those of the interpolation `WIDE`, `N` by [`MODES`].
+/// A matrix of `N` unknowns a node with a cycle as a substitute for its inverse. Blocks have `AREA`
+/// values, `N` by `N`, and those of the interpolation `WIDE`, `N` by [`MODES`].
 #[derive(Debug)]
 pub(crate) struct Level<const N: usize, const AREA: usize, const WIDE: usize> {
     level: SharedLevel<N>,

@@ -17,10 +17,10 @@ use crate::{
     results::{Kept, Results},
 };
 
-/// Time between two looks at the keyboard.
+/// Time between two checks of the keyboard.
 const TICK: Duration = Duration::from_millis(50);
 
-/// The function of Python that is told of increments.
+/// The Python function that is called with increments.
 pub struct Callback {
     /// The function.
     pub function: Py<PyAny>,

@@ -209,7 +209,7 @@ impl Model {
         steps.map(|step| step.name.clone()).collect()
     }
 
-    /// Mesh of a body, as it is after gaps have been closed.
+    /// Mesh of a body after gaps have been closed.
     fn mesh(&self, body: usize) -> Mesh {
         Mesh(self.model.bodies[body].mesh.clone())
     }

@@ -1,8 +1,8 @@
 //! Bulk laws that are functions of Python.
 //!
-//! The interpreter's lock is taken for each call and no longer. The first exception of a
-//! function is kept; from then on the law has no answer, so that a run ends there whatever the
-//! order of its threads, and the exception is raised when it has ended.
+//! The interpreter's lock is taken for each call and no longer. The first exception of a function
+//! is kept; from then on the law has no response, so that a run ends there whatever the order of
+//! its threads, and the exception is raised when it has ended.
 
 use std::fmt;
 

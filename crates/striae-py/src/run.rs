@@ -1,5 +1,5 @@
-//! Runs: the library computes on a thread of its own without the interpreter, while the
-//! thread that asked for the run answers to increments and to the keyboard.
+//! Runs: the library computes on a thread of its own without the interpreter, while the thread that
+//! started the run responds to increments and to the keyboard.
 //!
 //! ```text
 //! caller's thread                      thread of the run
@@ -246,7 +246,7 @@ fn writing(output: Output, fields_every: Option<usize>) -> Output {
     Output { fields, ..output }
 }
 
-/// Keeps states and tells of them.
+/// Keeps states and reports them.
 struct Messenger {
     told: Option<(Sender<Arc<Kept>>, Receiver<Next>)>,
     keep: usize,

@@ -20,7 +20,7 @@ use crate::{
     results::{Kind, Results},
 };
 
-/// Arrays that say what others say, or what few ask for.
+/// Arrays that repeat others, or that few need.
 const LEFT_OUT: [&str; 3] = ["structural_vector", "mean_traction", "normal"];
 
 /// Field of the displacements of points, for files without `displacement`.

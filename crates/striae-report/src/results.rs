@@ -11,7 +11,7 @@ use striae_output::{
 
 use crate::ReportError;
 
-/// A results folder. A run under way has no summary, and may have no history yet.
+/// A results folder. A run in progress has no summary, and may have no history yet.
 pub struct Results {
     /// The folder.
     pub folder: PathBuf,

@@ -109,7 +109,7 @@ pub struct Assembled {
 }
 
 /// Evaluates the problem at a trial state and fills the tangent; without derivatives the tangent
-/// stays as it is. The partition grows where contact couples what it has not coupled before.
+/// stays unchanged. The partition grows if contact has new couplings.
 ///
 /// # Errors
 /// Returns why the trial state cannot be evaluated.
@@ -306,7 +306,8 @@ impl System<'_> {
         Ok(bodies)
     }
 
-    /// All of the bodies but elements and loads: what every rank that holds a node knows of it.
+    /// Contributions of the bodies other than elements and loads, which every rank that holds a
+    /// node knows.
     fn beside_elements(&mut self, imposed: &Imposed) {
         self.point_masses();
         self.carried(imposed);

@@ -1,7 +1,7 @@
-//! Converged increments looked at from outside, at nodes.
+//! Audits of converged increments, at nodes.
 //!
-//! Residuals say how well the rows are satisfied, not what they come to. What is looked at here
-//! follows from positions and nodal forces at both ends of an increment, whatever rows it was
+//! Residuals show how well the rows are satisfied, not whether the result is plausible. The audits
+//! use positions and nodal forces at both ends of an increment, independent of the rows it was
 //! solved by.
 
 mod coarse;

@@ -66,8 +66,7 @@ impl Problem {
         elements.map(mean).collect()
     }
 
-    /// Material of an element of a body with its actuation, and the variables that its points
-    /// have come to.
+    /// Material of an element of a body with its actuation, and the variables of its points.
     pub fn made_of<'a>(
         &'a self,
         state: &'a State,

@@ -31,8 +31,8 @@ pub trait Observer: IterationObserver {
     fn step(&mut self, index: usize, name: &str);
     /// An increment has converged.
     fn increment(&mut self, progress: Progress, increment: &Increment) -> Continue;
-    /// A point that was asked for by the answer to [`Observer::increment`] or [`Observer::cut_back`],
-    /// or the last one of a step that does not reach its end.
+    /// A point that was requested by the response to [`Observer::increment`] or
+    /// [`Observer::cut_back`], or the last one of a step that does not reach its end.
     fn point(&mut self, _point: Point) {}
     /// An increment has failed and is tried again with a smaller one.
     fn cut_back(&mut self, progress: Progress, reason: &CutBack) -> Continue;
@@ -88,7 +88,7 @@ const EASY: usize = 6;
 const GROWTH: f64 = 1.5;
 const CUT: f64 = 0.5;
 
-/// A place in a run from which it can go on as if it had not stopped.
+/// A place in a run from which it can continue as if it had not stopped.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Point {
     /// Number of the step.
@@ -142,7 +142,7 @@ pub fn run_in(
     run_steps(problem, first, state, increments, &mut workspace, observer)
 }
 
-/// Goes on from a point of an earlier run, with the same results to the last bit.
+/// Continues from a point of an earlier run, with results identical to the last bit.
 pub fn resume(problem: &Problem, point: Point, observer: &mut dyn Observer) -> (State, Ending) {
     let workspace = Workspace::new(problem.model.solver.backend);
     resume_in(workspace, problem, point, observer)
@@ -205,7 +205,7 @@ impl Division {
         }
     }
 
-    /// The point that a step has come to in `state`.
+    /// The point that a step has reached in `state`.
     fn point(&self, context: &StepContext, state: &State, workspace: &Workspace) -> Point {
         Point {
             step: context.index,
@@ -357,7 +357,7 @@ fn run_step(
     None
 }
 
-/// An increment to where a step is to come to.
+/// An increment to the target of a step.
 fn attempted(
     context: &StepContext,
     state: &State,

@@ -83,7 +83,7 @@ pub struct Motion {
     carried: Vec<Vec3>,
     /// `a_f` times the forces that hold tied nodes at the start.
     held: Vec<Vec3>,
-    /// `a_f` times what contact asks for of the rigid bodies at the start.
+    /// `a_f` times the forces of contact on the rigid bodies at the start.
     pushed: Vec<Wrench>,
 }
 

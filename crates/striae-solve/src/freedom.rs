@@ -6,7 +6,7 @@
 //! two bodies that both move, of the difference of their motions. What is left is the null
 //! space of the rows. Lengths are scaled by the size of the bodies.
 //!
-//! Prescribed nodes are looked at by the ranks that own them, all else by all of them.
+//! Prescribed nodes are processed by the ranks that own them, everything else by all ranks.
 //!
 //! Longer than other files, as rows and the words for their null space belong together.
 
@@ -66,7 +66,7 @@ pub fn slipping<'n>(contacts: impl Iterator<Item = &'n [Vec<NodeResult>; 2]>) ->
         .collect()
 }
 
-/// Pairs whose sides are taken for held by each other where they face each other.
+/// Pairs whose sides count as held by each other where they face each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bridged {
     /// None.
@@ -90,8 +90,8 @@ pub fn worth_stabilising(context: &StepContext, state: &State, free: &FreeMotion
     (0..state.pairs.len()).filter(open).find(held)
 }
 
-/// A motion that nothing holds in a converged state. Nodes of pairs that contact has not
-/// looked at yet are closed if they touch.
+/// A motion that nothing holds in a converged state. Nodes of pairs that contact has not evaluated
+/// yet count as closed if they touch.
 pub fn free_motion_in(
     context: &StepContext,
     state: &State,

@@ -1,9 +1,9 @@
 //! Gaps and overlaps of the pairs of a model before anything has moved.
 //!
-//! Overlaps of more than two hundredths of the local facet size are a [`fault`] unless
-//! the pair says what to make of them: [`close`] moves the nodes of the smaller side to
-//! the other one, without strain, as it is the reference mesh that changes; [`Offsets`] let
-//! overlaps fade over the first step.
+//! Overlaps of more than two hundredths of the local facet size are a [`fault`] unless the pair
+//! states their treatment: [`close`] moves the nodes of the smaller side to the other one, without
+//! strain, as it is the reference mesh that changes; [`Offsets`] let overlaps fade over the first
+//! step.
 
 mod close;
 mod crowd;

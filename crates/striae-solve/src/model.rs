@@ -43,7 +43,7 @@ pub struct Body {
     pub material: Material,
     /// Formulation of its elements.
     pub formulation: Formulation,
-    /// Mass per reference volume; zero where neither inertia nor gravity asks for it.
+    /// Mass per reference volume; zero if neither inertia nor gravity needs it.
     pub density: f64,
     /// Mass of the nodes of its contact surfaces.
     pub contact_mass: ContactMass,
@@ -193,7 +193,7 @@ pub struct Pair {
     pub friction: Friction,
     /// Enforcement of contact.
     pub enforcement: Enforcement,
-    /// Distance over which contact is looked for ahead; `None`: half the local facet size.
+    /// Distance within which contact is searched; `None`: half the local facet size.
     pub search_distance: Option<f64>,
     /// Treatment of initial gaps and overlaps of the meshes.
     pub initial: Initial,
@@ -411,7 +411,7 @@ pub struct Displacement {
     pub body: BodyId,
     /// Its nodes.
     pub nodes: Vec<NodeId>,
-    /// Target by component; `None` leaves the component as it is.
+    /// Target by component; `None` leaves the component unchanged.
     pub components: [Option<f64>; 3],
     /// Curve towards the target.
     pub curve: Curve,
@@ -456,7 +456,7 @@ pub enum LoadKind {
     Pressure(f64),
 }
 
-/// Strain or tension that a body takes on of itself, see [`crate::actuation`].
+/// Strain or tension imposed on a body, see [`crate::actuation`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Actuation {
     /// The body.

@@ -112,7 +112,7 @@ pub trait IterationObserver {
     fn iteration(&mut self, number: usize, norms: &Norms, contacts: &[Evaluation]);
 }
 
-/// Nobody is told.
+/// An observer that ignores everything.
 impl IterationObserver for () {
     fn iteration(&mut self, _: usize, _: &Norms, _: &[Evaluation]) {}
 }

@@ -30,9 +30,9 @@ use crate::{
     rigid::Pose,
 };
 
-/// First increment of a step with a stabilised pair, unless a smaller one is asked for, and
-/// the largest one where all increments are to be larger. Loads are small at its end, and so
-/// is what they lose on the way to contact.
+/// First increment of a step with a stabilised pair, unless a smaller one is requested, and the
+/// largest one if all increments are to be larger. Loads are small at its end, and so is what they
+/// lose on the way to contact.
 const FIRST: [f64; 2] = [2e-3, 0.5];
 
 /// Relative motion of a node and what is opposite to it that is resisted.

@@ -101,7 +101,7 @@ impl Ties {
     /// The ties of a model.
     ///
     /// # Errors
-    /// All ties that are none.
+    /// All invalid ties.
     pub fn new(model: &Model) -> Result<Self, Vec<TieFault>> {
         if model.ties.is_empty() {
             return Ok(Self::default());

@@ -22,7 +22,7 @@ use rayon::prelude::*;
 pub const THRESHOLD: f64 = 0.01;
 /// Largest magnitude in a column of the equilibrated matrix that counts as zero.
 const TINY: f64 = 4.0 * f64::EPSILON;
-/// Pivot put in the place of a zero in a front without a parent.
+/// Pivot that replaces a zero in a front without a parent.
 const REPLACEMENT: f64 = 1.0 / ((1_u64 << 26) as f64);
 /// Columns that are eliminated one by one.
 const NARROW: usize = 8;

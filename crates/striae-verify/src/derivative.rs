@@ -31,7 +31,7 @@ const SLACK: f64 = 0.25;
 /// Random directions tried by [`assert_derivative`].
 const DIRECTIONS: u64 = 4;
 
-/// The finite difference that a derivative is held against.
+/// Finite difference with which a derivative is compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Difference {
     /// One-sided, of first order; for functions that may only be entered from one side.

@@ -81,7 +81,7 @@ impl Log {
         })))
     }
 
-    /// The log of a run that goes on.
+    /// The log of a run that is resumed.
     pub(crate) fn resumed(
         share: &Share,
         recording: Recording,
@@ -177,8 +177,8 @@ impl Log {
         Ok(())
     }
 
-    /// Writes the checkpoint of the end of a run, from which it can go on with other
-    /// steps, where there are any.
+    /// Writes the checkpoint of the end of a run, from which it can continue with other steps, if
+    /// there are any.
     pub(crate) fn end(
         &self,
         problem: &Problem,

@@ -234,8 +234,8 @@ impl Simulation {
         Ok(simulation.stopped_at(checkpoint, folder))
     }
 
-    /// Goes on with a run from the checkpoint in its folder, to the same results to
-    /// the last bit. Its deck is read again and must not have changed.
+    /// Resumes a run from the checkpoint in its folder, with results identical to the last bit. Its
+    /// deck is read again and must not have changed.
     ///
     /// # Errors
     /// When there is no checkpoint, or when it does not fit the deck or the output.
@@ -245,7 +245,7 @@ impl Simulation {
         Self::resume_from(deck, checkpoint, folder)
     }
 
-    /// Goes on from a checkpoint with a deck that is at hand.
+    /// Resumes from a checkpoint with a given deck.
     ///
     /// # Errors
     /// When the deck is not that of the checkpoint.
@@ -260,7 +260,7 @@ impl Simulation {
         Ok(simulation.stopped_at(checkpoint, folder))
     }
 
-    /// A run that goes on from a checkpoint that fits it.
+    /// A run that resumes from a checkpoint that fits it.
     fn stopped_at(mut self, checkpoint: Checkpoint, folder: &Path) -> Self {
         let Checkpoint {
             source,
@@ -277,8 +277,8 @@ impl Simulation {
         self
     }
 
-    /// Goes on from the end of a completed run with further steps. Times and numbers of
-    /// steps and increments go on; history and summary are those of the further steps.
+    /// Continues from the end of a completed run with further steps. Times and numbers of steps and
+    /// increments continue; history and summary are those of the further steps.
     ///
     /// # Errors
     /// When the earlier run was stopped before its end, all faults of the further steps,
@@ -460,7 +460,7 @@ fn is_first(problem: &Problem, point: &Point) -> bool {
         && point.size == first_increment(&problem.model, 0)
 }
 
-/// The record of a run that begins or goes on.
+/// The record of a run that starts or resumes.
 fn log(
     problem: &Problem,
     output: Output,

@@ -1,4 +1,4 @@
-//! Runs that go on from a checkpoint with the steps of another deck.
+//! Runs that continue from a checkpoint with the steps of another deck.
 
 use std::{fs, path::Path};
 

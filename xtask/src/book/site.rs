@@ -1,5 +1,5 @@
-//! The book as it was built: every link of a page has to lead to a file or a place that is
-//! there, and no page may ask for anything from a network.
+//! The book as it was built: every link of a page must lead to an existing file or place, and no
+//! page may load anything from a network.
 
 use std::{
     collections::{HashMap, HashSet},

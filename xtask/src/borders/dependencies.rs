@@ -1,8 +1,7 @@
 //! Dependencies that crates may have on each other.
 //!
-//! The table is the ladder of `ARCHITECTURE.md`: a crate knows only what stands
-//! in its row. Tests may use more. [`VERIFICATION`] serves tests and the published
-//! cases, nothing else.
+//! The table is the ladder of `ARCHITECTURE.md`: a crate may use only those in its row. Tests may
+//! use more. [`VERIFICATION`] serves tests and the published cases, nothing else.
 
 use crate::breach::Breach;
 

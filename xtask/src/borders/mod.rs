@@ -1,4 +1,4 @@
-//! Borders between the crates: what each part must not know.
+//! Borders between the crates: the knowledge that each part must not have.
 //!
 //! [`dependencies`] compares the manifests, as `cargo metadata` reports them,
 //! with the table of what each crate may depend on; [`source`] reads the text of

@@ -1,4 +1,4 @@
-//! Published cases on one to four ranks, held against the same decks on one process.
+//! Published cases on one to four ranks, compared with the same decks on one process.
 //!
 //! The one process solves with the multifrontal LU: the default solver corrects contact alone
 //! between iterations, which ranks do not, and would need fewer of them.

@@ -138,8 +138,8 @@ impl Constants {
     }
 }
 
-/// `key=value,..` as keys of a `friction` table, numbers and words as TOML wants them;
-/// a value in brackets or braces is a list or a table and stays as it is.
+/// `key=value,..` as keys of a `friction` table, with numbers and words in TOML's form; a value in
+/// brackets or braces is a list or a table and stays unchanged.
 fn in_deck_words(law: &str, constants: &str) -> String {
     let mut inside = 0;
     let between = |character: char| {

@@ -34,7 +34,7 @@ pub struct Arguments {
     out: Option<PathBuf>,
 }
 
-/// Reads the file, prints what it holds, and writes what is asked for.
+/// Reads the file, prints its content, and writes the requested files.
 pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     match has_ending(&arguments.file, "stl") {
         true => surface(arguments, out),

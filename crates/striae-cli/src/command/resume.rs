@@ -1,5 +1,4 @@
-//! `striae resume DIR`: goes on with a run that was stopped, to the same results, or with
-//! other steps.
+//! `striae resume DIR`: continues a run that was stopped, to equal results, or with other steps.
 
 use std::{
     io::Write,

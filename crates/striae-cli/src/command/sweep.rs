@@ -1,8 +1,8 @@
 //! `striae sweep DECK --vary mu=0.1,0.2`: runs of a deck with several values of its numbers.
 //!
-//! Every combination is a run of its own in a folder named by its values, by this program in a
-//! process of its own. What came of them is a table, in the terminal and as `sweep.csv`, which
-//! is written anew whenever a run has ended.
+//! Every combination is run in a folder named by its values, in a separate process of this program.
+//! Results are tabulated in the terminal and in `sweep.csv`, which is rewritten whenever a run has
+//! ended.
 
 mod members;
 mod runs;

@@ -8,9 +8,9 @@
 //! [   G   G_m ] [m] = [c],         (G_m - G F C) m = c - G F b
 //! ```
 //!
-//! with `F` in the place of `(S + A)^-1`: terms of contact in `A` that are not symmetric,
-//! couple two bodies or are newer than `F` are left to a few iterations of GMRES, whose
-//! matrix is the true one. They are small: of the order of the pressure over the stiffness.
+//! with `F` instead of `(S + A)^-1`: terms of contact in `A` that are not symmetric, couple two
+//! bodies or are newer than `F` are left to a few iterations of GMRES, whose matrix is the true
+//! one. They are small: of the order of the pressure over the stiffness.
 
 mod complement;
 mod couplings;
@@ -187,7 +187,7 @@ impl Compliant {
         });
     }
 
-    /// The solution with the flexibilities in the place of the inverse.
+    /// The solution with the flexibilities instead of the inverse.
     fn precondition<T: Real>(&self, inverses: &[Inverse<T>], y: &mut [f64]) {
         let mut z = vec![0.0; y.len()];
         add_flexible(inverses, y, &mut z, 1.0);

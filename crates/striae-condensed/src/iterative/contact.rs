@@ -1,8 +1,8 @@
 //! The multipliers' part of the preconditioner, sparse on the contact surfaces.
 //!
-//! The Schur complement is `S = G_m - G_x A^-1 C` with `A = K + g^T s g`. With something
-//! simple, `F`, in the place of `K^-1` alone it need not be made: constraints have
-//! `g x = r_g` but for their small entries of multipliers, so that `K x = -C m - g^T s r_g`,
+//! The Schur complement is `S = G_m - G_x A^-1 C` with `A = K + g^T s g`. With a simple
+//! approximation `F` of `K^-1` alone it need not be formed: constraints have `g x = r_g` but for
+//! their small entries of multipliers, so that `K x = -C m - g^T s r_g`,
 //!
 //! ```text
 //! S m = r   =>   (G_m - G_x F C) m = r + G_x F g^T s r_g.

@@ -87,7 +87,7 @@ struct Friction<'a> {
 }
 
 impl Friction<'_> {
-    /// In the first iteration: nodes that slipped go on.
+    /// In the first iteration: nodes that slipped continue to slip.
     fn first(&self) -> (Status, [TangentialRow; 2]) {
         let [z1, z2] = self.z.map(|z| z.re);
         // Only nodes still near the slip surface continue to slip; one far inside has been
@@ -154,8 +154,8 @@ impl Friction<'_> {
         self.slip_or_stick(rows)
     }
 
-    /// The radius of the slip surface at which slip goes on: where friction depends on the
-    /// slip rate, `|z|` is that of the rate so far.
+    /// Radius of the slip surface at which slip continues: if friction depends on the slip rate,
+    /// `|z|` is that of the rate so far.
     fn continued_radius(&self) -> Q {
         let radius = self.reaching(&self.varpi, &self.z);
         let [z1, z2] = self.z.map(|z| z.re);
@@ -213,8 +213,8 @@ impl Friction<'_> {
         Q::combination([(1.0, &z), (r, &turned)])
     }
 
-    /// Slip that goes on in the direction of `z`: `|z| = varpi rho` and no slip
-    /// across, or no `z` across where the node cannot move that way.
+    /// Slip that continues in the direction of `z`: `|z| = varpi rho` and no slip across, or no `z`
+    /// across where the node cannot move that way.
     fn continued(&self) -> [TangentialRow; 2] {
         let z = &self.z;
         let radius = self.continued_radius();

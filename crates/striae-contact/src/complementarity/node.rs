@@ -13,8 +13,8 @@ use crate::{
 /// Stage of the iterations of an increment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Iteration {
-    /// The first: touching nodes are closed; closed nodes stick or, if they slipped
-    /// before, go on slipping in their direction.
+    /// The first: touching nodes are closed; closed nodes stick or, if they slipped before,
+    /// continue to slip in their direction.
     First,
     /// A later one: the state decides.
     Later {
@@ -56,7 +56,7 @@ pub struct ContactNode<'a> {
     pub frame: &'a Frame,
     /// Textures of both sides at the node.
     pub textures: &'a NodeTextures,
-    /// Slip rate, where friction asks for it.
+    /// Slip rate, if friction depends on it.
     pub rate: &'a TrackedScalar,
     /// `true` if the node slipped in the last converged increment.
     pub slipped: bool,

@@ -41,7 +41,7 @@ const PRESSURE: usize = 23;
 /// Derivative of the gap below which nothing can change it.
 const FIXED: f64 = 1e-9;
 
-/// The slip rate that friction is asked for at.
+/// Slip rate at which friction is evaluated.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Rate {
     /// The present one.

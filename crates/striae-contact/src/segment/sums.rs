@@ -95,7 +95,7 @@ pub(super) struct Triangle {
     pub indices: [usize; 3],
 }
 
-/// Adds the integrals over a triangle of all `N_c N_d`, and derivatives if asked for.
+/// Adds the integrals over a triangle of all `N_c N_d`, and derivatives if requested.
 #[inline(always)]
 pub(super) fn add_triangle(
     facets: &[PlaneFacet; 2],

@@ -1,4 +1,4 @@
-//! Supports of kept nodes on a segment, and what pressure on them comes to.
+//! Supports of kept nodes on a segment, and the effect of pressure on them.
 //!
 //! Notation and formulas are those of [`super::points`].
 

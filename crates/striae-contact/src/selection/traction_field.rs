@@ -29,8 +29,7 @@ pub struct Selection {
     pub depth: f64,
     /// Points opposite to the kept nodes at the start, for collocated rows.
     pub partners: Vec<Option<Partner>>,
-    /// Overlap of the meshes at the nodes that is not pressed out yet, by side; empty where
-    /// there is none.
+    /// Overlap of the meshes at the nodes that is not removed yet, by side; empty if there is none.
     pub offsets: [Vec<f64>; 2],
     /// In which directions friction of the kept nodes is determined; empty where it is in all.
     pub slip_freedoms: Vec<SlipFreedom>,

@@ -272,7 +272,7 @@ fn remember(pair: &mut Pair, basis: &TractionBasis) {
     }
 }
 
-/// Nodes that a repetition with memory keeps or drops anew.
+/// Nodes that a repetition with memory keeps or drops newly.
 fn flips(pair: &mut Pair) -> usize {
     let basis = TractionBasis::new(&pair.interface());
     remember(pair, &basis);

@@ -32,8 +32,8 @@ pub(super) struct Cards {
 }
 
 impl Cards {
-    /// The sections of a body, or why there are none; `stated` is the formulation that the deck or the elements of the
-    /// file ask for.
+    /// The sections of a body, or why there are none; `stated` is the formulation that the deck or
+    /// the elements of the file request.
     pub(super) fn sections(
         &self,
         mesh: &Mesh,

@@ -129,7 +129,7 @@ struct Parts {
     rigid: Vec<Option<RigidSurface>>,
     pairs: Vec<LoweredPair>,
     ties: Vec<Option<Tie>>,
-    /// Pairs of contact of everything, none where it is not asked for; `None` after faults.
+    /// Pairs of contact of everything, none if it is not requested; `None` after faults.
     lowered: Option<Lowered>,
     steps: Vec<LoweredStep>,
 }
@@ -285,7 +285,7 @@ fn note(found: Vec<Fault>, raw: &raw::Simulation, places: &Places, faults: &mut 
     }
 }
 
-/// A name, empty where there is none that can be read.
+/// A name, empty if there is none that can be read.
 fn name(name: &Option<At<Text>>) -> &str {
     name.as_ref().map_or("", |name| &name.value.0)
 }

@@ -10,9 +10,7 @@ use crate::{
 use toml::de::DeValue;
 
 table! {
-    /// Stress-free strain or tension of a body, from the present value to the target. Values of
-    /// different kinds add up: `stretch` and `strain` are one kind except with `along = "fibres"`,
-    /// `thermal_expansion` is another, and so is `tension` along each line.
+    /// Stress-free strain or tension of a body, from the present value to the target. Values of different kinds add up: `stretch` and `strain` are one kind except with `along = "fibres"`, `thermal_expansion` is another, and so is `tension` along each line.
     Actuation {
         /// Name of the body.
         required body: Text,

@@ -4,8 +4,7 @@ use super::super::declare::{choice, table};
 use crate::value::{All, NonNegative, Number, Positive, Steepness};
 
 table! {
-    /// Decay of friction from rest to fast slip, `kinetic + (static - kinetic)
-    /// exp(-rate/slip_rate)`.
+    /// Decay of friction from rest to fast slip, `kinetic + (static - kinetic) exp(-rate/slip_rate)`.
     Decay {
         /// Coefficients in fast slip over those at rest, which the law states.
         required kinetic_over_static: NonNegative,

@@ -25,8 +25,7 @@ either! {
 }
 
 table! {
-    /// Stiffening in tension, slack in compression: energy `k1/(2 k2) (exp(k2 E^2) - 1)` if their
-    /// strain `E` is positive.
+    /// Stiffening in tension, slack in compression: energy `k1/(2 k2) (exp(k2 E^2) - 1)` if their strain `E` is positive.
     ExponentialFibres {
         /// Modulus.
         required k1: Positive,
@@ -38,8 +37,7 @@ table! {
 }
 
 table! {
-    /// Linear in tension and compression: energy `M/8 (I4 - 1)^2` of the square `I4` of their
-    /// stretch.
+    /// Linear in tension and compression: energy `M/8 (I4 - 1)^2` of the square `I4` of their stretch.
     LinearFibres {
         /// Modulus `M` that the family adds along its direction at rest.
         required modulus: Positive,

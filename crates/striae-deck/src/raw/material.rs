@@ -158,8 +158,7 @@ table! {
 }
 
 table! {
-    /// Rubber with chains of finite length: energy `-G Jm/2 ln(1 - (I1 - 3)/Jm)`, nearly
-    /// incompressible.
+    /// Rubber with chains of finite length: energy `-G Jm/2 ln(1 - (I1 - 3)/Jm)`, nearly incompressible.
     Gent {
         /// Shear modulus `G`.
         required shear_modulus: Positive,
@@ -193,8 +192,7 @@ table! {
 }
 
 table! {
-    /// A spring and a dashpot in series. If another program states the share `g` of the modulus of
-    /// sudden deformations, the ratio is `g/(1 - sum of all g)`.
+    /// A spring and a dashpot in series. If another program states the share `g` of the modulus of sudden deformations, the ratio is `g/(1 - sum of all g)`.
     Branch {
         /// Ratio of its modulus to that of slow deformations.
         required ratio: Positive,

@@ -273,8 +273,7 @@ table! {
 }
 
 table! {
-    /// A solid cylinder. Sets of nodes and facets: the round `side`, `zmin`, `zmax`, for a quarter
-    /// also its planes of symmetry `xmin` and `ymin`; named before rotation.
+    /// A solid cylinder. Sets of nodes and facets: the round `side`, `zmin`, `zmax`, for a quarter also its planes of symmetry `xmin` and `ymin`; named before rotation.
     SolidCylinder {
         /// Centre of the side `zmin`. Default: `[0, 0, 0]`.
         optional base: [Number; 3],

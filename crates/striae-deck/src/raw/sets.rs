@@ -173,8 +173,7 @@ table! {
 }
 
 table! {
-    /// Border between the elements of a set and everything else: nodes, or facets on the boundary
-    /// of the body.
+    /// Border between the elements of a set and everything else: nodes, or facets on the boundary of the body.
     OfBorder {
         /// Name of the element set.
         required border: Text,
@@ -271,8 +270,7 @@ table! {
 }
 
 table! {
-    /// The facets of a set that can be reached from the one nearest to a place without crossing a
-    /// sharp edge.
+    /// The facets of a set that can be reached from the one nearest to a place without crossing a sharp edge.
     FacetsAround {
         /// Name of the set. Default: `all`.
         optional of: Text,

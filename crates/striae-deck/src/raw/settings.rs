@@ -59,8 +59,7 @@ words! {
         HistoryVariables = "history-variables",
         /// Unit vectors along the families of fibres of each element, for bodies with fibres.
         Fibres = "fibres",
-        /// Number of the section of each element, in the order of `sections` from 1; 0 outside of
-        /// sections. For bodies with sections.
+        /// Number of the section of each element, in the order of `sections` from 1; 0 outside of sections. For bodies with sections.
         Section = "section",
     }
 }
@@ -161,8 +160,7 @@ table! {
 words! {
     /// Factorisation of the linear systems.
     Backend {
-        /// Bodies by Cholesky and contact by dense algebra; multifrontal LU if that fails or is
-        /// cheaper, `iterative` for large bodies.
+        /// Bodies by Cholesky and contact by dense algebra; multifrontal LU if that fails or is cheaper, `iterative` for large bodies.
         Condensed = "condensed",
         /// Multifrontal LU on dense fronts.
         Multifrontal = "multifrontal",

@@ -46,7 +46,7 @@ impl fmt::Display for Unstated {
 /// The text of a deck.
 ///
 /// # Errors
-/// All that the model says and a deck cannot: laws of one's own, textures at chosen nodes,
+/// Everything that the model states and a deck cannot: user-defined laws, textures at chosen nodes,
 /// motions of single coordinates of rigid bodies.
 pub fn write(model: &Model, output: &Output) -> Result<String, Unstated> {
     let mut writer = Writer {

@@ -55,7 +55,7 @@ pub enum Violation {
     },
 }
 
-/// States in which the law is looked at.
+/// Number of states in which the law is checked.
 const STATES: u64 = 5;
 /// Largest disturbance of a component of the identity.
 const AMPLITUDE: f64 = 0.15;

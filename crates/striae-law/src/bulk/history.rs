@@ -1,13 +1,13 @@
-//! Laws with a memory: what a point has been through goes in, what it has come to goes out.
+//! Laws with internal variables: the old state of a point goes in, the new one comes out.
 //!
 //! ```text
 //! (P, A, new) = response(F, old, dt)
 //! ```
 //!
-//! A point has a fixed number of variables, all zero in a mesh that has not been deformed; those
-//! of fibres are directions, which stay.
-//! `A = dP/dF` is taken at fixed old variables, so that Newton's method converges
-//! quadratically. A law that forgets has no variables, and nothing of this concerns it.
+//! A point has a fixed number of variables, all zero in a mesh that has not been deformed; those of
+//! fibres are directions, which stay. `A = dP/dF` is taken at fixed old variables, so that Newton's
+//! method converges quadratically. A law without memory has no variables, and none of this concerns
+//! it.
 
 /// History of a point up to the last converged state.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -13,7 +13,7 @@
 //! Laws with a memory have no energy that all stress comes from; they answer to a deformation
 //! after a [`Past`] and say what is dissipated. Their `A` is symmetric all the same.
 //!
-//! A law is one file: parameters, formula, source, response. Laws of one's own implement
+//! A law is one file: parameters, formula, source, response. User-defined laws implement
 //! [`BulkLaw`] in any crate.
 
 mod analysis;
@@ -300,8 +300,8 @@ impl Material {
         }
     }
 
-    /// Cauchy stress at the deformation gradient `F`: `P F^T / J`, and `P`
-    /// itself for the law of small strains, which does not tell the two apart.
+    /// Cauchy stress at the deformation gradient `F`: `P F^T / J`, and `P` itself for the law of
+    /// small strains, which does not distinguish the two.
     ///
     /// # Errors
     ///
@@ -314,8 +314,7 @@ impl Material {
         Ok(self.cauchy(&first_piola, deformation_gradient))
     }
 
-    /// Cauchy stress at the deformation gradient `F` where the point has come to what it
-    /// remembers.
+    /// Cauchy stress at the deformation gradient `F`, given the variables of the point.
     ///
     /// # Errors
     ///

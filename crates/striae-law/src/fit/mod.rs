@@ -31,12 +31,12 @@
 //! s^2 = S/(n - k) ,   cov q = s^2 (J^T W J)^-1 ,   q_k +- t sqrt(cov_kk) ,
 //! ```
 //!
-//! with Student's `t` for `n - k` degrees of freedom at the level asked for: exact where the
-//! law is linear in its constants. Quotients have Fieller's interval (1954, "Some problems in
-//! interval estimation", J. R. Stat. Soc. B 16, 175-185), exact too, and without end where
-//! the divisor may be zero. Each interval is about one constant; for all `k` together ask for
-//! the level `1 - (1 - level)/k` (Bonferroni). There are none without degrees of freedom, nor
-//! where the bound on dissipation shapes the law: see [`Standing`].
+//! with Student's `t` for `n - k` degrees of freedom at the requested level: exact where the law is
+//! linear in its constants. Quotients have Fieller's interval (1954, "Some problems in interval
+//! estimation", J. R. Stat. Soc. B 16, 175-185), exact too, and without end where the divisor may
+//! be zero. Each interval is about one constant; for all `k` together ask for the level `1 - (1 -
+//! level)/k` (Bonferroni). There are none without degrees of freedom, nor where the bound on
+//! dissipation shapes the law: see [`Standing`].
 //!
 //! Angles are in radians, friction has no unit.
 
@@ -106,7 +106,7 @@ pub struct Constant {
     pub name: ConstantName,
     /// Its value.
     pub value: f64,
-    /// The interval in which it lies with the probability asked for; its ends may be infinite.
+    /// The interval in which it lies with the requested probability; its ends may be infinite.
     pub interval: Option<[f64; 2]>,
 }
 

@@ -149,7 +149,7 @@ impl RateDependence {
         self.0 != Form::None
     }
 
-    /// Rate up to which the dependence is seen; `None` where there is none.
+    /// Rate up to which the dependence is visible; `None` if there is none.
     pub fn scale(&self) -> Option<f64> {
         match &self.0 {
             Form::None => None,

@@ -92,7 +92,7 @@ impl SlipDependence {
         }
     }
 
-    /// Accumulated slip up to which the dependence is seen; `None` where there is none.
+    /// Accumulated slip up to which the dependence is visible; `None` if there is none.
     pub fn scale(&self) -> Option<f64> {
         match &self.0 {
             Form::None => None,

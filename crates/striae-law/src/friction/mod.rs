@@ -109,7 +109,7 @@ impl Law {
 /// Surfaces, of the two, that must carry a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RequiredTextures {
-    /// Textures are not looked at.
+    /// Textures have no effect.
     Any,
     /// Exactly one of the two surfaces.
     One,

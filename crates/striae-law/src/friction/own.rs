@@ -13,7 +13,7 @@ use super::{FrictionError, Kernel, RequiredTextures, Textures};
 /// First-order dual numbers over the normal and the textures of the two surfaces.
 pub type Lane = DualSVec64<9>;
 
-/// A friction law of one's own, for [`Friction::own`](super::Friction::own).
+/// A user-defined friction law, for [`Friction::own`](super::Friction::own).
 ///
 /// A law states its [`Kernel`], `-tau = L z + varpi eta` with `|z| <= varpi` and slip along
 /// `K z`, at a point with a unit normal and unit textures. It is asked with dual numbers,
@@ -64,11 +64,11 @@ pub trait FrictionLaw: fmt::Debug + Send + Sync {
     fn kernel(&self, normal: &Vector3<Lane>, textures: &Textures<Lane>) -> Kernel<'static, Lane>;
 }
 
-/// A shared law of one's own; equal to itself only.
+/// A shared user-defined law; equal to itself only.
 #[derive(Clone, Debug)]
 pub struct Own(Arc<dyn FrictionLaw>);
 
-/// Written as what it says of itself.
+/// Written as its own description.
 impl Serialize for Own {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_str(&format_args!("{:?}", self.0))
@@ -81,7 +81,7 @@ impl PartialEq for Own {
     }
 }
 
-/// Angles between the textures at which a law is looked at when it is made.
+/// Number of angles between the textures at which a law is checked when it is made.
 const TEXTURE_ANGLES: u32 = 72;
 
 impl Own {

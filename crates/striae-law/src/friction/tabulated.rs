@@ -11,10 +11,10 @@
 //! -tau = mu(phi) p d    while slipping
 //! ```
 //!
-//! with `phi` the direction of `z` and `mu(phi)` the monotone periodic cubic through
-//! the table. Friction opposes slip in all directions: a table of coefficients says how
-//! large friction is, and knows no force across slip. The slip surface is the table
-//! itself as a polar curve, star-shaped and convex or not.
+//! with `phi` the direction of `z` and `mu(phi)` the monotone periodic cubic through the table.
+//! Friction opposes slip in all directions: a table of coefficients states the magnitude of
+//! friction only, without a force across slip. The slip surface is the table itself as a polar
+//! curve, star-shaped and convex or not.
 //!
 //! Source: star-shaped slip surfaces as measured and used by Walker & Leine (2019),
 //! "Set-valued anisotropic dry friction laws: formulation, experimental verification

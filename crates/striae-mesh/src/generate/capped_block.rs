@@ -68,7 +68,7 @@ impl Default for CappedBlock {
     }
 }
 
-/// Height at the corners over the rise of the cap that is none.
+/// Ratio of the height at the corners to the rise of the cap below which it counts as zero.
 const FLAT: f64 = 1e-6;
 
 impl CappedBlock {

@@ -67,7 +67,7 @@ impl Points {
     }
 }
 
-/// A number, its exponent also marked with `D`; `None` where it is none or not finite.
+/// A number, whose exponent may be marked with `D`; `None` if it is not a number or not finite.
 pub fn finite(word: &str) -> Option<f64> {
     super::number(word).filter(|number| number.is_finite())
 }

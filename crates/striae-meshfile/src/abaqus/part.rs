@@ -125,7 +125,7 @@ impl Part {
         Ok(())
     }
 
-    /// Notes what the letters of a kind of element ask for.
+    /// Notes what the letters of a kind of element request.
     fn ask(&mut self, name: &str) {
         let letters = name
             .trim_start_matches("C3D")

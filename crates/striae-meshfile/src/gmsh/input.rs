@@ -40,8 +40,8 @@ enum Order {
     Big,
 }
 
-/// A file of text with all that is not UTF-8 replaced, which can only matter in names; a
-/// binary file as it is.
+/// A file of text with all that is not UTF-8 replaced, which can only matter in names; a binary
+/// file unchanged.
 pub(super) fn readable(bytes: &[u8]) -> Cow<'_, [u8]> {
     let mut lines = bytes.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii);
     let format = lines.find(|line| !line.is_empty() && !line.starts_with(b"$"));

@@ -104,7 +104,7 @@ impl Number {
         }
     }
 
-    /// The numbers that words are, or the first word that is none.
+    /// The numbers in a text, or the first word that is not a number.
     pub(super) fn parsed<'a>(
         self,
         words: impl Iterator<Item = &'a str>,

@@ -72,7 +72,7 @@ impl SideBuilder {
     }
 }
 
-/// The sides `a` and `b` of a pair or a tie at a path; faults of both are told.
+/// The sides `a` and `b` of a pair or a tie at a path; faults of both are reported.
 pub(super) fn sides(
     [a, b]: &[SideBuilder; 2],
     path: &Path,
@@ -126,7 +126,7 @@ impl PairBuilder {
         self
     }
 
-    /// Distance over which contact is looked for ahead.
+    /// Sets the distance within which contact is searched.
     pub fn search_distance(mut self, distance: f64) -> Self {
         self.search_distance = Some(distance);
         self

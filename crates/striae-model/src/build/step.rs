@@ -1,4 +1,4 @@
-//! Steps and what they state.
+//! Steps and their conditions.
 //!
 //! Longer than other files, as it is the one list of all that a step can state.
 
@@ -27,7 +27,7 @@ pub fn equal_increments(number: usize) -> Increments {
     }
 }
 
-/// Targets of the components of a displacement; `None` leaves a component as it is.
+/// Targets of the components of a displacement; `None` leaves a component unchanged.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Components(pub [Option<f64>; 3]);
 

@@ -61,7 +61,7 @@ pub(super) fn check(draft: &Draft<'_>, faults: &mut List) -> Positions {
     impossible
 }
 
-/// Notes pairs that ask for stabilisation where no step has any.
+/// Notes pairs that request stabilisation although no step has any.
 pub(super) fn check_stabilised(
     draft: &Draft<'_>,
     impossible: &Positions,

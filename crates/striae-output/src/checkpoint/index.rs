@@ -84,7 +84,7 @@ impl Index {
         &self.checkpoint.written
     }
 
-    /// The step that was under way, and the fraction of it that was done.
+    /// The step in progress, and the completed fraction of it.
     pub fn reached(&self) -> (usize, f64) {
         let point = &self.checkpoint.point;
         (point.step, point.fraction)

@@ -1,4 +1,4 @@
-//! A run under way in a file, exactly, so that it can go on as if it had not stopped.
+//! A run in progress, stored exactly in a file, so that it can continue as if it had not stopped.
 //!
 //! ```text
 //! DIR/checkpoint.bin = "striae checkpoint\n", format, CRC-32 of the rest,
@@ -47,7 +47,7 @@ pub const END: &str = "end.bin";
 /// Number of the format, to be raised when the content changes.
 pub const FORMAT: u64 = 20;
 
-/// A run under way.
+/// A run in progress.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Checkpoint {
     /// Deck that is run.

@@ -1,5 +1,4 @@
-//! Reads files that [`write`](super::write) made: arrays by name, each decompressed when
-//! it is asked for.
+//! Reads files that [`write`](super::write) made: arrays by name, each decompressed on request.
 //!
 //! Cells may be of any of VTK's types; see [`Stored::cells`]. Files of other programs are
 //! read as far as they are of the same form: one piece, raw appended arrays in blocks
@@ -50,7 +49,7 @@ struct Described {
 }
 
 impl Stored {
-    /// Reads the text of a file, or of all pieces; arrays wait until they are asked for.
+    /// Reads the text of a file, or of all pieces; arrays are read on request.
     ///
     /// # Errors
     /// When a file cannot be read or is of another form.
@@ -114,7 +113,7 @@ impl Stored {
         })
     }
 
-    /// An array with a value a point; `None` where there is none of that name.
+    /// An array with a value a point; `None` if there is none of that name.
     ///
     /// # Errors
     /// When it is damaged.
@@ -126,7 +125,7 @@ impl Stored {
         values.map(Some).map_err(content(path))
     }
 
-    /// An array with a value a cell; `None` where there is none of that name.
+    /// An array with a value a cell; `None` if there is none of that name.
     ///
     /// # Errors
     /// When it is damaged.

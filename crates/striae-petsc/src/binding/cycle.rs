@@ -1,4 +1,4 @@
-//! One cycle of algebraic multigrid in the place of the inverse of a matrix.
+//! One cycle of algebraic multigrid as a substitute for the inverse of a matrix.
 
 use super::{
     ffi,

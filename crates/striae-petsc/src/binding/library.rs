@@ -120,7 +120,7 @@ impl Drop for Library {
 }
 
 /// Gives memory that PETSc has freed back to the system, so that others can have it. The GNU C
-/// library would keep it for what PETSc asks for next, vectors of megabytes included.
+/// library would keep it for later requests of PETSc, even vectors of megabytes.
 pub(super) fn give_back() {
     #[cfg(all(target_os = "linux", target_env = "gnu"))]
     // SAFETY: may be called at any time.

@@ -208,7 +208,7 @@ pub fn darkness(ends: &[[[f64; 3]; 2]]) -> f64 {
     (0.5 * (mean - 4.0) / 20.0).clamp(0.0, 0.5)
 }
 
-/// The field that was asked for, or the best there is.
+/// The requested field, or the best one available.
 fn chosen<'a>(parts: &'a [Part], wanted: Option<&str>) -> Result<&'a str, ReportError> {
     let names = names(parts);
     let find = |name: &str| names.iter().copied().find(|known| *known == name);

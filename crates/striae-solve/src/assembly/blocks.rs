@@ -17,7 +17,7 @@ use crate::{layout::united, node::GlobalNode, share::shared_out};
 const TERMS: usize = 16;
 
 impl System<'_> {
-    /// Adds the terms of a pair; those that are blocks as they are to the residual only.
+    /// Adds the terms of a pair; those that already are blocks to the residual only.
     pub(super) fn add_terms(&mut self, pair: usize, terms: &[LocalTerm]) {
         if !self.is_plain(pair) {
             for term in terms {

@@ -53,7 +53,7 @@ pub struct OfBodies {
 }
 
 impl System<'_> {
-    /// Internal forces and stiffness, in the place of what there was.
+    /// Internal forces and stiffness, replacing the previous ones.
     pub(super) fn elements(
         &mut self,
         places: &ElementPlaces,

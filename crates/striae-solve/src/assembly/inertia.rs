@@ -47,7 +47,7 @@ impl Inertia {
 pub(super) struct Share {
     /// Response, weighed, with inertia and weight.
     pub(super) response: ElementResponse,
-    /// Internal force on each corner, as it is.
+    /// Internal force on each corner, without inertia.
     pub(super) internal: [Vec3; MAX_CORNERS],
     /// Weight of each corner.
     pub(super) weight: [Vec3; MAX_CORNERS],

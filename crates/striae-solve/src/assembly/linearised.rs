@@ -42,9 +42,8 @@ pub struct ContactAssembled {
     pub contacts: Vec<Evaluation>,
 }
 
-/// Evaluates contact at a trial state `change` away from where the background was
-/// linearised, and puts it in the place of what contact there was in the tangent, whose
-/// part of the bodies is that of the background.
+/// Evaluates contact at a trial state `change` away from the state of linearisation, and replaces
+/// the contact in the tangent, whose part of the bodies is that of the background.
 ///
 /// No rigid body may have coordinates among the unknowns. `None` where the partition would have
 /// to grow.

@@ -36,7 +36,7 @@ impl ElementPlaces {
         }
     }
 
-    /// Finds the places anew in a pattern that has grown.
+    /// Finds the places again in a pattern that has grown.
     pub fn find(&mut self, structure: &Structure) {
         let blocks = self.blocks.iter_mut().flatten();
         blocks.for_each(|places| places.find(structure));

@@ -29,7 +29,7 @@ impl Slot {
     }
 }
 
-/// Lists that are made anew for every block, rows first.
+/// Lists that are rebuilt for every block, rows first.
 #[derive(Default)]
 pub(super) struct Scratch {
     /// Of a contact term.

@@ -1,10 +1,10 @@
 //! Contact terms in the system, and what they do to rigid bodies.
 //!
-//! The force `f` on a node at `x` pushes the rigid body on the other side of the pair,
-//! whose reference point is at `c`, back with `-f` and `-(x - c) x f`. A term knows no
-//! coordinates of the body: what it states holds relative to the body. If the body
-//! and the nodes of the term were moved alike by `du` and turned by `dphi`, gaps, slip
-//! and traction components would stay and forces turn along, so that
+//! The force `f` on a node at `x` pushes the rigid body on the other side of the pair, whose
+//! reference point is at `c`, back with `-f` and `-(x - c) x f`. A term has no coordinates of the
+//! body: its equations hold relative to the body. If the body and the nodes of the term were moved
+//! alike by `du` and turned by `dphi`, gaps, slip and traction components would stay and forces
+//! turn along, so that
 //!
 //! ```text
 //! dr = dr/dx (dx - du - dphi x (x - c))                      of gaps, slip, tractions

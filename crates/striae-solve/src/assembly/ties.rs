@@ -13,9 +13,9 @@
 //! sum (f - a_f h_0) = (1 - a_f) F_1,    sum r x (f - a_f h_0) = (1 - a_f) M_1
 //! ```
 //!
-//! with the force `F` and the torque `M` that drive or hold the body. Turning the
-//! arms gives the tangent `d(r x h) = (dphi x r) x h`. What contact asks for, see
-//! `pushed`, joins `F` and `M`, fully at the end.
+//! with the force `F` and the torque `M` that drive or hold the body. Turning the arms gives the
+//! tangent `d(r x h) = (dphi x r) x h`. The force of contact, see `pushed`, is added to `F` and
+//! `M`, fully at the end.
 
 use nalgebra::Matrix3;
 use striae_contact::segment::Derivatives;

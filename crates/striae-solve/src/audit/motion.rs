@@ -15,8 +15,8 @@ use crate::{assembly::StepContext, model::Procedure, state::State};
 /// motion is a jump.
 const LEAST: f64 = 0.5;
 
-/// Way over the longest one that is prescribed from which on a body goes by itself: strain that is
-/// released may add to what drives it.
+/// Ratio of the motion to the longest prescribed one from which on a body jumps: released strain
+/// may add to the drive.
 const FURTHER: f64 = 1.5;
 
 /// The body that jumps furthest in an increment, if one does; collective.

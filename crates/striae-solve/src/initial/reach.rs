@@ -10,7 +10,7 @@ use striae_mesh::Vec3;
 use super::translation::nearest_approach;
 use crate::model::{BodyId, ContactSurface, Freedom, Model, PairId, Procedure, RigidId};
 
-/// Distance over that at the start that is none.
+/// Relative excess over the initial distance that counts as round-off.
 const ROUND_OFF: f64 = 1e-9;
 /// Motion that deformation may add, over that of what is prescribed.
 const DEFORMATION: f64 = 2.0;

@@ -1,4 +1,4 @@
-//! An increment under way: corrections until the residual is small.
+//! An increment in progress: corrections until the residual is small.
 
 mod ending;
 
@@ -37,7 +37,7 @@ use crate::{
 /// need.
 const REPETITIONS: usize = 3;
 
-/// An increment under way.
+/// An increment in progress.
 pub(super) struct Attempt<'a> {
     context: &'a StepContext<'a>,
     state: &'a State,

@@ -1,11 +1,10 @@
 //! Corrections with the tangent of an earlier state, near the end of an increment.
 //!
-//! Newton's method squares the residual: from `r_0` it comes to `r_1 = C r_0^2`. A further
-//! correction with the tangent and the factors at `r_0` leaves `C r_0 r_1`, so each one shrinks
-//! the residual by `r_1 / r_0`. Where a few of them reach the tolerance, neither a tangent nor
-//! factors are needed for them. So states that a small residual leads to are evaluated without
-//! derivatives; where that does not bring the increment to its end, derivatives are evaluated
-//! after all.
+//! Newton's method squares the residual: it reduces `r_0` to `r_1 = C r_0^2`. A further correction
+//! with the tangent and the factors at `r_0` leaves `C r_0 r_1`, so each one shrinks the residual
+//! by `r_1 / r_0`. Where a few of them reach the tolerance, neither a tangent nor factors are
+//! needed for them. So states that a small residual leads to are evaluated without derivatives;
+//! where that does not bring the increment to its end, derivatives are evaluated after all.
 
 use striae_contact::{segment::Derivatives, unknowns::Status};
 

@@ -1,8 +1,8 @@
 //! Start of an increment, extrapolated from the previous ones.
 //!
-//! In a step that goes on as it did, positions and tractions change smoothly. An increment of
-//! the size `dt` starts where the last state and the one or two before it in the same step
-//! lead to (one in dynamics), `dt_0` being the size of the last increment and `t` its own end:
+//! Within a step, positions and tractions change smoothly. An increment of the size `dt` starts
+//! where the last state and the one or two before it in the same step lead to (one in dynamics),
+//! `dt_0` being the size of the last increment and `t` its own end:
 //!
 //! ```text
 //! x = x_n + dt/dt_0 (x_n - x_(n-1))                                 two states

@@ -27,7 +27,7 @@ pub(super) enum Linear {
 }
 
 impl Linear {
-    /// A solver of one's own.
+    /// Creates a solver of this process.
     pub(super) fn new(backend: Backend) -> Self {
         Self::Alone(Box::new(automatic(backend)))
     }
@@ -54,8 +54,8 @@ impl Linear {
         }
     }
 
-    /// Factors a tangent, on a thread of the pool, as all linear algebra of one's own: it need
-    /// not be woken then.
+    /// Factors a tangent, on a thread of the pool, as all linear algebra of this process does: it
+    /// need not be woken then.
     pub(super) fn factor(&mut self, tangent: &Tangent) -> Result<Factored, SolveError> {
         match self {
             Self::Alone(solver) => rayon::scope(|_| solver.factor(tangent)),

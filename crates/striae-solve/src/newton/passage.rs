@@ -1,7 +1,7 @@
 //! Bodies that have gone through each other without contact that saw it.
 //!
-//! A converged increment is looked at from outside, see [`striae_contact::interference`], on
-//! all facets. Contact has missed what
+//! A converged increment is audited, see [`striae_contact::interference`], on all facets. Contact
+//! has missed what
 //!
 //! - went through a body and out on its other side,
 //! - is or was inside by more than half the local facet size, or went in and out beside

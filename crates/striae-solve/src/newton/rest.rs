@@ -1,9 +1,9 @@
 //! Contact brought to rest on linearised bodies.
 //!
-//! After a correction contact has changed: nodes have closed or begun to slip. While
-//! the factors of the bodies are at hand, contact is corrected again and again with
-//! the bodies left linear, at the price of a small dense system, until it rests. What
-//! is found takes the place of the correction if the true residual is better for it.
+//! After a correction contact has changed: nodes have closed or begun to slip. While the factors of
+//! the bodies are available, contact is corrected repeatedly with linear bodies, at the cost of a
+//! small dense system, until it rests. The result replaces the correction if the true residual is
+//! smaller.
 
 use striae_contact::{complementarity::Iteration, segment::Derivatives};
 

@@ -8,8 +8,8 @@ use striae_contact::{
 
 use crate::model::Strategy;
 
-/// Iterations of the present problem: the rows of contact that are solved for are others once
-/// nodes are chosen again, and what earlier ones did not come to says nothing of them.
+/// Iterations of the present problem: the rows of contact that are solved for are others once nodes
+/// are chosen again, and earlier failures to converge do not concern them.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Ladder {
     /// Iterations made when it was posed.

@@ -92,7 +92,7 @@ fn label(slipped: bool) -> Label {
     }
 }
 
-/// The fields chosen anew with what a trial state shows.
+/// The fields chosen again with the contacts of a trial state.
 pub(super) fn reselected(setting: &Setting, trial: &Trial, contacts: &[Evaluation]) -> Selected {
     let (mut selections, tractions): (Vec<_>, Vec<_>) = with_configurations(setting, trial)
         .enumerate()

@@ -140,8 +140,7 @@ impl Workspace {
         self.system.as_mut().expect("the workspace was prepared")
     }
 
-    /// Evaluates a trial state with contact in an iteration; the pattern grows as contact asks
-    /// for it.
+    /// Evaluates a trial state with contact in an iteration; the pattern grows as contact needs it.
     pub(super) fn assemble(
         &mut self,
         setting: &Setting,
@@ -360,8 +359,8 @@ impl SystemStorage {
         self.analysed = false;
     }
 
-    /// The pattern of contact has grown. A solver that knows the older one looks at the new
-    /// one now, so that what it has kept does not depend on when it is asked next.
+    /// The pattern of contact has grown. A solver prepared for the older one is prepared for the
+    /// new one now, so that its kept data do not depend on the time of the next request.
     fn has_grown(&mut self, growth: &Growth, solver: &mut Linear) {
         self.growth.extend(growth.clone());
         if std::mem::take(&mut self.analysed) {

@@ -60,7 +60,7 @@ impl<'a> Borders<'a> {
     }
 }
 
-/// Faces that a rank tells of, as far as this one holds their nodes.
+/// Faces that a rank reports, as far as this one holds their nodes.
 fn local_faces(share: &Share, body: usize, told: &[u8]) -> Vec<[NodeId; 4]> {
     let numbers: Vec<NodeId> = (told.as_chunks().0.iter())
         .map(|bytes| NodeId(u32::from_le_bytes(*bytes)))

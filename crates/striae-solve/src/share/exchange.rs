@@ -1,8 +1,8 @@
 //! Sums over the ranks that hold a node.
 //!
-//! Nodes that all ranks hold are summed by a reduction. For others each rank sends what it has
-//! to every other holder, and all of them add in the order of the ranks, so that they come to
-//! the same bits.
+//! Nodes that all ranks hold are summed by a reduction. For others each rank sends what it has to
+//! every other holder, and all of them add in the order of the ranks, so that they obtain the same
+//! bits.
 
 use striae_mesh::Vec3;
 

@@ -1,4 +1,4 @@
-//! Ties that are none, in words.
+//! Faults of ties, with their messages.
 
 use striae_mesh::{ElementId, Vec3};
 

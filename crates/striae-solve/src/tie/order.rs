@@ -1,4 +1,4 @@
-//! Nodes that follow nodes that follow: their order, and what they come to follow.
+//! Order of nodes that depend on dependent nodes, and their resolved dependence.
 //!
 //! Rows of nodes that follow each other in a circle, as at a seam under which the facets of
 //! a third body reach from one neighbour to the other, are solved together,
@@ -46,7 +46,7 @@ type Resolved = (Vec<Follower>, [Vec<Group>; 3]);
 /// Inverse of a group, and nodes that each of its members depends on.
 type Solved = (Option<DMatrix<f64>>, Vec<Vec<(GlobalNode, f64)>>);
 
-/// Finds what followers come to follow.
+/// Resolves the dependence of followers on each other.
 pub(super) fn resolved(
     model: &Model,
     mut followers: Vec<Follower>,

@@ -20,7 +20,7 @@ use crate::node::GlobalNode;
 const LEAST_COVER: f64 = 0.3;
 /// Weights that are round-off.
 const ROUND_OFF: f64 = 1e-12;
-/// Relative difference of weights of rows that is none.
+/// Relative difference of weights of rows that counts as zero.
 const SAME: f64 = 1e-6;
 
 /// The two surfaces of a tie.

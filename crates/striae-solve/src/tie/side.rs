@@ -9,7 +9,7 @@ use std::cmp::Ordering;
 use striae_contact::{side::Side, tie::Joined};
 use striae_mesh::{Mesh, Vec3};
 
-/// Relative difference that is none.
+/// Relative difference that counts as zero.
 const SAME: f64 = 1e-6;
 
 /// The side that follows.

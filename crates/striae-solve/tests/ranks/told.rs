@@ -173,7 +173,7 @@ fn numbers(problem: &Problem, state: &State) -> Vec<(String, Vec<f64>)> {
     all
 }
 
-/// Asserts that a model tells on two, three and four ranks what it tells on one.
+/// Asserts that the output of a model on two, three and four ranks is that on one.
 pub fn assert_same(model: &Model) -> Told {
     let (expected, positions) = alone(model);
     for ranks in 2..=4 {

@@ -1,4 +1,4 @@
-//! Models and the two configurations between which their contact is looked at.
+//! Models and the two configurations between which their contact is evaluated.
 
 use nalgebra::Rotation3;
 use striae_contact::placement::Placement;

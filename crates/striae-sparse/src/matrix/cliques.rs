@@ -88,7 +88,7 @@ impl CliquePlaces {
         places
     }
 
-    /// Finds the places anew, for another structure of the same supervariables.
+    /// Finds the places again, for another structure of these supervariables.
     pub fn find(&mut self, structure: &Structure) {
         let size = self.size;
         self.columns.resize(self.members.len() * size, NOWHERE);

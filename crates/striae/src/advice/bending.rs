@@ -7,9 +7,9 @@
 //! G (l/t)^2 / E = (l/t)^2 / (2 (1 + nu)),
 //! ```
 //!
-//! however many elements there are over the thickness (the parasitic shear of Hughes, The
-//! Finite Element Method, section 4.4). A body is taken for one that bends if it is thin,
-//! something pushes it across, and neither of its large sides is supported from the start.
+//! however many elements there are over the thickness (the parasitic shear of Hughes, The Finite
+//! Element Method, section 4.4). A body counts as bending if it is thin, something pushes it
+//! across, and neither of its large sides is supported from the start.
 
 use std::collections::BTreeSet;
 
@@ -24,7 +24,7 @@ use super::{Advice, Topic, parts::Part};
 const THIN: f64 = 0.2;
 /// Spurious stiffness worth a note, and a warning.
 const LIMITS: [f64; 2] = [0.1, 2.0];
-/// Gap over thickness that is none.
+/// Ratio of gap to thickness that counts as zero.
 const TOUCHING: f64 = 1e-3;
 /// Cosine of normals that are across.
 const ACROSS: f64 = 0.7;
@@ -201,7 +201,7 @@ fn held_nodes(model: &Model, body: BodyId, axis: &Vec3) -> BTreeSet<NodeId> {
     held.flat_map(|of| of.nodes.iter().copied()).collect()
 }
 
-/// Faces that touch, at the start, what is as long and wide as they are.
+/// Faces that touch, at the start, a surface that is as long and wide as they are.
 fn supported_faces(
     model: &Model,
     fits: &[Option<Fit>],

@@ -1,7 +1,7 @@
-//! Contact of everything: what may touch what, what may not, and thin bodies.
+//! Contact of everything: surfaces that may touch, surfaces that may not, and thin bodies.
 //!
-//! A model that has pairs with faces at sharp edges, as contact of everything makes them, is
-//! meant to be whole: what no pair lets touch is told, as something may be forgotten.
+//! A model that has pairs with faces at sharp edges, as contact of everything makes them, is meant
+//! to be complete: surfaces without a pair are reported, as they may be forgotten.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -7,9 +7,9 @@ use striae_model::{Model, Pair};
 
 use super::{Advice, Topic};
 
-/// Directions of slip that are looked at.
+/// Number of directions of slip that are checked.
 const DIRECTIONS: usize = 360;
-/// Angles between two textures that are looked at.
+/// Number of angles between two textures that are checked.
 const ANGLES: usize = 37;
 /// Coefficient above which there is a warning.
 const LARGEST: f64 = 2.0;
@@ -30,7 +30,7 @@ pub(super) fn look(model: &Model, advice: &mut Advice) {
     }
 }
 
-/// Notes textures that no friction of a pair looks at.
+/// Notes textures that no friction of a pair uses.
 fn unused(model: &Model, pair: &Pair, advice: &mut Advice) {
     let changes = model.steps.iter().flat_map(|step| &step.frictions);
     let changes = changes.filter(|(of, _)| model.pairs[of.0].name == pair.name);

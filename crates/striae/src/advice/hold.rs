@@ -13,7 +13,7 @@ use striae_model::{Body, BodyId, ContactSurface, Model, PairId, Procedure, Rigid
 
 use super::{Advice, Topic};
 
-/// Gap over the size of an element that is none.
+/// Ratio of the gap to the element size that counts as zero.
 const TOUCHING: f64 = 1e-6;
 
 /// Notes what holds every body, and warns of those that nothing holds at first.

@@ -19,7 +19,7 @@ const NORMAL: f64 = 0.7;
 const PRESSED: [f64; 2] = [0.5, 1.0];
 /// Part of the extent of a body over which nodes are prescribed that press it.
 const SPREAD: f64 = 0.5;
-/// Way over the height that is none.
+/// Ratio of the motion to the height that counts as zero.
 const NO_WAY: f64 = 1e-9;
 
 /// Notes bodies that lose much of their height.

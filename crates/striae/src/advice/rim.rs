@@ -1,4 +1,4 @@
-//! Surfaces that go on smoothly beyond the facets of a pair.
+//! Surfaces that continue smoothly beyond the facets of a pair.
 //!
 //! If a facet of the pair and a neighbour outside it make an angle of less than 40 degrees at their
 //! common edge, contact can roll or spread over the edge, onto facets that no pair knows. It does
@@ -11,12 +11,12 @@ use striae_model::{BodyId, ContactSurface, Freedom, Model, RigidShape, Step};
 
 use super::{Advice, Topic, resolution::approach};
 
-/// Cosine between the normals of facets that go on smoothly.
+/// Cosine between the normals of facets that continue smoothly.
 const SMOOTH: f64 = 0.77;
 /// Angle about which a body does not roll.
 const SMALL: f64 = 0.05;
 
-/// Warns of contact that comes to such edges.
+/// Warns of contact that reaches such edges.
 pub(super) fn look(model: &Model, advice: &mut Advice) {
     for pair in &model.pairs {
         for (side, other) in [(&pair.a, &pair.b), (&pair.b, &pair.a)] {
@@ -89,7 +89,7 @@ fn edges(mesh: &Mesh, face: Face) -> impl Iterator<Item = [NodeId; 2]> {
     edges.map(|[from, to]| [from.min(to), from.max(to)])
 }
 
-/// Returns the way in which contact comes to the rim in a step.
+/// Returns how contact reaches the rim in a step.
 fn reached(
     model: &Model,
     (body, faces): (BodyId, &[Face]),

@@ -17,7 +17,8 @@ use striae_model::{ContactSurface, Initial, Model, RigidShape};
 
 use super::{Advice, Topic};
 
-/// Sagitta over overlap from which on it bears on the pressure: as large is its error.
+/// Ratio of sagitta to overlap from which on it matters: this is the relative error of the
+/// pressure.
 const BESIDE: f64 = 0.1;
 /// Angle between neighbouring facets from which on their common edge is one of the body.
 const EDGE: f64 = 0.8;

@@ -14,7 +14,7 @@ const ALONG: f64 = 0.7;
 /// Names of the coordinates of a rigid body.
 const COORDINATES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 
-/// Notes what steps ask for that their bodies can hardly do.
+/// Notes requests of steps that their bodies can hardly fulfil.
 pub(super) fn look(model: &Model, advice: &mut Advice) {
     for (index, body) in model.bodies.iter().enumerate() {
         displacements(model, BodyId(index), body, advice);

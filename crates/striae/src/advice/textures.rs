@@ -6,7 +6,7 @@ use striae_surface::texture::{Lines, Paint};
 
 use super::{Advice, Topic};
 
-/// Sine of the angle between a direction and the normal that is none.
+/// Sine of the angle between a direction and the normal that counts as zero.
 const ALONG: f64 = 1e-6;
 /// Sine from which on the direction is doubtful: six degrees.
 const NEARLY: f64 = 0.1;

@@ -1,4 +1,4 @@
-//! Runs that go on from a checkpoint with other steps.
+//! Runs that continue from a checkpoint with other steps.
 //!
 //! The new deck has the same bodies, rigid surfaces and pairs, and begins with the steps that
 //! the run has done. A step that the run stopped in may be stated otherwise: what was done of
@@ -42,11 +42,11 @@ enum TakenUp {
 }
 
 impl Simulation {
-    /// Goes on from the checkpoint in a folder, of a run that was stopped or has
-    /// completed, with the steps of another deck, whose bodies, rigid surfaces and pairs are the same and
-    /// which begins with the steps that are done. Times and numbers of steps and increments
-    /// go on; history and summary, written to `out`, are those of the further steps. That run
-    /// can be resumed, unless it leaves a step that was under way.
+    /// Continues from the checkpoint in a folder, of a run that was stopped or has completed, with
+    /// the steps of another deck, whose bodies, rigid surfaces and pairs are the same and which
+    /// begins with the steps that are done. Times and numbers of steps and increments continue;
+    /// history and summary, written to `out`, are those of the further steps. That run can be
+    /// resumed, unless it leaves a step that was under way.
     ///
     /// # Errors
     /// When there is no checkpoint, by name what differs between the decks, or all

@@ -26,7 +26,7 @@ pub(super) struct Watch<'a> {
     pub(super) interrupt: Interrupt,
     /// States at the end of the steps.
     pub(super) steps: Vec<State>,
-    /// State before the increment under way.
+    /// State before the current increment.
     pub(super) before: State,
     /// Increments that have converged since the undeformed state.
     pub(super) increments: usize,

@@ -1,6 +1,6 @@
 //! Each physical mistake is found, and nothing else with it.
 //!
-//! Longer than other files, as it lists all mistakes that are looked for.
+//! Longer than other files, as it lists all mistakes that are found.
 
 use std::path::Path;
 

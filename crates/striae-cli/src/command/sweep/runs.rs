@@ -177,7 +177,7 @@ fn ask_to_stop(child: &Child) {
     }
 }
 
-/// Does nothing: the console tells all processes itself.
+/// Does nothing: the console informs all processes itself.
 #[cfg(not(unix))]
 fn ask_to_stop(_: &Child) {}
 

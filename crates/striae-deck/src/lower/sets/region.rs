@@ -11,7 +11,7 @@ use crate::{
 };
 use striae_mesh::{ElementId, Face, Mesh, NodeId, Region};
 
-/// A region that members are looked for in.
+/// A region in which members are searched.
 pub(super) struct Within(Region);
 
 impl Within {

@@ -1,4 +1,4 @@
-//! Tests of whether the iterations have come to their end.
+//! Tests of whether the iterations have ended.
 
 use striae_contact::{segment::ON_EDGE, unknowns::Status};
 

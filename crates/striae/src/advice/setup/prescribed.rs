@@ -8,7 +8,7 @@ use striae_model::{BodyId, ContactSurface, Freedom, Load, LoadKind, Model, Pair,
 
 use super::super::{Advice, Topic};
 
-/// Component of a normal that is none.
+/// Component of a normal that counts as zero.
 const ACROSS: f64 = 0.1;
 /// Names of the components.
 const AXES: [&str; 3] = ["x", "y", "z"];
