@@ -24,7 +24,7 @@ pub enum Failure {
     #[error("{0}")]
     Model(Box<striae::Error>),
     /// A folder that would be written exists.
-    #[error("{} exists already; choose another name", .0.display())]
+    #[error("{} already exists; choose another name", .0.display())]
     Exists(PathBuf),
     /// A file or folder cannot be written.
     #[error("{} cannot be written: {cause}", path.display())]
@@ -37,8 +37,8 @@ pub enum Failure {
     /// A run cannot be taken up again.
     #[error("{0}")]
     Checkpoint(#[from] CheckpointError),
-    /// A run was interrupted, and a checkpoint is there to go on from.
-    #[error("interrupted at time {time:.6}; `striae resume {}` goes on from there", folder.display())]
+    /// A run was interrupted, and a checkpoint is there to continue from.
+    #[error("interrupted at time {time:.6}; continue with `striae resume {}`", folder.display())]
     Interrupted {
         /// Time of the last converged state.
         time: f64,
@@ -70,7 +70,7 @@ pub enum Failure {
     #[error("the runs differ: {0}")]
     Differ(String),
     /// There is no case of this name.
-    #[error("there is no case `{name}`; known are {known}")]
+    #[error("unknown case `{name}`; known cases are {known}")]
     UnknownCase {
         /// Requested name.
         name: String,
@@ -133,8 +133,8 @@ fn faulty(count: usize) -> String {
 
 fn warned(count: usize) -> String {
     match count {
-        1 => "1 warning, which `--strict` does not allow".into(),
-        count => format!("{count} warnings, which `--strict` does not allow"),
+        1 => "1 warning, which `--strict` forbids".into(),
+        count => format!("{count} warnings, which `--strict` forbids"),
     }
 }
 

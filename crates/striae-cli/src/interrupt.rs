@@ -48,7 +48,7 @@ fn stop(interrupt: &Interrupt) {
     if interrupt.set() == Before::Set {
         std::process::exit(i32::from(INTERRUPTED));
     }
-    let text = "stopping after this increment; interrupt again to stop at once";
+    let text = "stopping after this increment; interrupt again to stop immediately";
     let _ = writeln!(std::io::stderr(), "{text}");
 }
 

@@ -12,7 +12,7 @@ pub enum FaultKind {
         cause: String,
     },
     /// The bytes are no text.
-    #[error("this is no UTF-8; save the deck as text in UTF-8")]
+    #[error("the deck is not valid UTF-8; save it as text in UTF-8")]
     NotText,
     /// The text is not TOML.
     #[error("not valid TOML: {message}")]
@@ -40,7 +40,7 @@ pub enum FaultKind {
     },
     /// A parameter that no expression can name.
     #[error(
-        "`{name}` is no name of a parameter; use letters, digits and `_`, beginning with a letter, and not `pi`"
+        "`{name}` is not a valid parameter name; use letters, digits and `_`, beginning with a letter, and not `pi`"
     )]
     ParameterName {
         /// The name.
@@ -48,7 +48,7 @@ pub enum FaultKind {
     },
     /// A parameter is set that the deck does not have.
     #[error(
-        "`--set {name}=...` sets no parameter of this deck; {}",
+        "`--set {name}=...` does not set a parameter of this deck; {}",
         parameters(known)
     )]
     UnknownParameter {
@@ -59,7 +59,7 @@ pub enum FaultKind {
     },
     /// A path by which a number is set leads nowhere.
     #[error(
-        "`--set {path}=...` sets no number that stands in the deck; {place} has {}{}", or_none(known), did_you_mean(.nearest)
+        "`--set {path}=...` does not set a number of this deck; {place} has {}{}", or_none(known), did_you_mean(.nearest)
     )]
     UnknownPath {
         /// The path.
@@ -73,7 +73,7 @@ pub enum FaultKind {
     },
     /// A path by which a number is set leads to something else.
     #[error(
-        "`--set {path}=...` can only set a number, and `{path}` is {found}{}",
+        "`--set {path}=...` can only set a number, but `{path}` is {found}{}",
         with(known)
     )]
     NoNumber {
@@ -106,7 +106,7 @@ pub enum FaultKind {
     },
     /// A mesh that would take more memory than there is.
     #[error(
-        "the mesh of body `{body}` would have {elements} elements, which take about {:.1} GB in a run, and {:.1} GB are available; use fewer divisions or larger elements",
+        "the mesh of body `{body}` would have {elements} elements and need about {:.1} GB in a run, but only {:.1} GB are available; use fewer divisions or larger elements",
         needed / 1e9, available / 1e9
     )]
     MeshMemory {
@@ -246,7 +246,7 @@ pub enum FaultKind {
         cause: String,
     },
     /// A density of what is no solid.
-    #[error("rigid body `{rigid}` has no inertia by its density: {cause}")]
+    #[error("the inertia of rigid body `{rigid}` cannot be computed from its density: {cause}")]
     RigidSolid {
         /// The rigid body.
         rigid: String,
@@ -254,7 +254,7 @@ pub enum FaultKind {
         cause: String,
     },
     /// Friction constants that the law refuses.
-    #[error("this friction is not possible: {cause}")]
+    #[error("this friction is not admissible: {cause}")]
     Friction {
         /// Message of the law.
         cause: String,
@@ -274,7 +274,7 @@ pub enum FaultKind {
         name: String,
     },
     /// A probe is nowhere.
-    #[error("probe `{name}` is nowhere: {cause}")]
+    #[error("probe `{name}` cannot be placed: {cause}")]
     Probe {
         /// Its name.
         name: String,

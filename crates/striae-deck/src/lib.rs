@@ -185,7 +185,7 @@ fn decimals(text: &str, at: usize) -> &'static str {
         four[0] == b' ' && four[1].is_ascii_digit() && four[2] == b',' && four[3].is_ascii_digit()
     });
     match comma {
-        true => "; decimals are written with a point, such as 0.3",
+        true => "; write decimals with a point, such as 0.3",
         false => "",
     }
 }

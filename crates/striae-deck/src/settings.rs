@@ -76,9 +76,9 @@ impl FromStr for Setting {
                 "expected NAME=VALUE, such as `E=2e6`, found `{text}`"
             ));
         };
-        let no_name = |name: &str| Err(format!("`{name}` stands for no number here"));
+        let no_name = |name: &str| Err(format!("`{name}` does not refer to a number here"));
         let found = evaluated(value, &mut |name| no_name(name))
-            .map_err(|cause| format!("`{value}` is no number: {cause}"))?;
+            .map_err(|cause| format!("`{value}` is not a number: {cause}"))?;
         Ok(Self::new(name.trim(), found))
     }
 }

@@ -95,7 +95,7 @@ fn what_is_deeper_than_half_the_body_is_refused() {
             "inside `",
             "of the thickness",
             size,
-            "Move the bodies apart",
+            "Separate the bodies",
         ] {
             assert!(said.contains(part), "{part}: {said}");
         }

@@ -83,7 +83,7 @@ impl Content {
             _ => return Ok(()),
         };
         if polar {
-            Err(format!("{what} have no place in a polar panel"))
+            Err(format!("{what} cannot be drawn in a polar panel"))
         } else if counts[0] != counts[1] {
             Err(format!(
                 "{} {what} where {} are needed",

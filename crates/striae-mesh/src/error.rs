@@ -96,7 +96,7 @@ pub enum MeshError {
     },
     /// A capped block that has no height left at its corners.
     #[error(
-        "height is {height}, but must be more than {rise:.6}, the rise of the cap at the corners; make the block higher, smaller in plan, or the radius larger"
+        "height is {height}, but must be more than {rise:.6}, the rise of the cap at the corners; make the block higher or smaller in plan, or the radius larger"
     )]
     CapRise {
         /// Its height.
@@ -105,7 +105,7 @@ pub enum MeshError {
         rise: f64,
     },
     /// More elements than a generator makes.
-    #[error("the mesh would have {elements} elements, {most} are the most that is made")]
+    #[error("the mesh would have {elements} elements, but the limit is {most}")]
     TooLarge {
         /// Number of elements that the mesh would have.
         elements: u128,

@@ -129,7 +129,7 @@ pub enum MeshFileFault {
         remedy: Option<&'static str>,
     },
     /// A binary file that is shorter or longer than it says.
-    #[error("the file announces {announced} bytes, but has {found}")]
+    #[error("the file declares {announced} bytes, but has {found}")]
     Length {
         /// Number of bytes that follows from its header.
         announced: u64,
@@ -161,7 +161,7 @@ pub enum MeshFileFault {
         known: Vec<String>,
     },
     /// A node without a vector.
-    #[error("it gives no vector to node {number} of the mesh")]
+    #[error("it has no vector for node {number} of the mesh")]
     NoVector {
         /// Number of the node in the file of the mesh.
         number: u64,

@@ -27,7 +27,7 @@ pub enum OutputError {
         cause: String,
     },
     /// A file of a run is not what the run wrote.
-    #[error("{} is damaged: it has changed or shrunk since the run wrote it; restore it, or run the deck anew", .0.display())]
+    #[error("{} is damaged: it has changed or shrunk since the run wrote it; restore it, or run the deck again", .0.display())]
     Damaged(PathBuf),
     /// The folder of a new run holds results.
     #[error("{} holds the results of an earlier run; choose another folder, or replace them with `--overwrite`", .0.display())]
@@ -68,7 +68,7 @@ pub enum OutputError {
         points: usize,
     },
     /// A row of a history has other columns than the first one.
-    #[error("{}: row {row} has {found} where column `{expected}` is due", path.display())]
+    #[error("{}: row {row} has {found} where column `{expected}` is expected", path.display())]
     Column {
         /// The file being written.
         path: PathBuf,

@@ -219,7 +219,7 @@ fn row(line: &str, columns: usize) -> Result<Vec<f64>, String> {
         .split(',')
         .map(|field| {
             let number = field.trim().parse();
-            number.map_err(|_| format!("`{field}` is no number"))
+            number.map_err(|_| format!("`{field}` is not a number"))
         })
         .collect::<Result<_, _>>()?;
     if numbers.len() == columns {
@@ -321,7 +321,7 @@ mod tests {
         let path = directory.path().join("history.csv");
         std::fs::write(&path, "a,b\n1,2\n1,x\n").unwrap();
         let error = Table::read(&path).unwrap_err().to_string();
-        assert!(error.ends_with("line 3: `x` is no number"), "{error}");
+        assert!(error.ends_with("line 3: `x` is not a number"), "{error}");
         std::fs::write(&path, "a,b\n1\n").unwrap();
         let error = Table::read(&path).unwrap_err().to_string();
         assert!(

@@ -186,10 +186,7 @@ pub fn weights(mesh: &Mesh, place: &ProbePlace) -> Result<Vec<(NodeId, f64)>, St
     match place {
         ProbePlace::Point(x) => match mesh.locate(x) {
             Some(located) => Ok(located.weights),
-            None => Err(format!(
-                "({}, {}, {}) is outside of the body",
-                x.x, x.y, x.z
-            )),
+            None => Err(format!("({}, {}, {}) is outside the body", x.x, x.y, x.z)),
         },
         ProbePlace::Nodes(set) => match mesh.node_sets.get(set) {
             Some(nodes) if !nodes.is_empty() => {

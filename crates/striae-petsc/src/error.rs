@@ -14,7 +14,7 @@ pub enum Error {
     #[error("MPI has been started before")]
     Started,
     /// MPI does not let several threads call it, not even one after the other.
-    #[error("this MPI lets only the main thread call it")]
+    #[error("this MPI can only be called by the main thread")]
     Threads,
     /// PETSc was built with other kinds of numbers.
     #[error(

@@ -83,8 +83,9 @@ impl Material {
                 Stiffness::Linear(modulus) => bulk::FibreStiffness::Linear { modulus },
             };
             let direction = direction.fibres();
-            let direction = direction
-                .ok_or_else(|| refused(WHAT, "only lines along or around an axis can be turned"))?;
+            let direction = direction.ok_or_else(|| {
+                refused(WHAT, "only lines along or around an axis can be rotated")
+            })?;
             Ok(bulk::Fibres {
                 stiffness,
                 direction,

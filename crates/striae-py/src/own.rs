@@ -23,7 +23,7 @@ struct Function {
 
 impl fmt::Debug for Function {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "function of Python `{}`", self.name)
+        write!(f, "Python function `{}`", self.name)
     }
 }
 
@@ -93,7 +93,7 @@ pub fn own_material(name: String, function: Py<PyAny>) -> PyResult<Material> {
     };
     let wrong = |text: String| model_error(vec![(name.clone(), text)]);
     let Some(rest) = law.called(&Matrix3::identity())? else {
-        return Err(wrong("it has no answer to the undeformed state".into()));
+        return Err(wrong("it fails for the undeformed state".into()));
     };
     // A_1122 and A_1212.
     let [lambda, shear] = [rest.tangent[(0, 4)], rest.tangent[(1, 1)]];

@@ -61,15 +61,14 @@ fn wrong(model: &Model, start: &Start, step: usize, known: &Known) -> Option<Str
         };
         let Some(at) = at else {
             return Some(format!(
-                "a function leads {place}, but node {} is free before, so where it begins is not \
-                 known; state a target and a curve",
+                "a function leads {place}, but node {} was free before, so its starting value is unknown; state a target and a curve",
                 node.index()
             ));
         };
         let size = at.abs() + start.value.abs() + start.change.abs();
         if (at - start.value).abs() > ROUND_OFF * size {
             return Some(format!(
-                "the function of {place} begins at {}, but node {} is at {at} then",
+                "the function of {place} begins at {}, but node {} is at {at} at that time",
                 start.value,
                 node.index()
             ));

@@ -170,7 +170,7 @@ impl Step {
         along: Along,
     ) -> PyResult<()> {
         let strain = strain_in_axes(components, axes.map(Into::into));
-        let strain = strain.ok_or_else(|| PyValueError::new_err("the axes span no plane"))?;
+        let strain = strain.ok_or_else(|| PyValueError::new_err("the axes do not span a plane"))?;
         self.actuate(body, section, ActuationKind::Strain(strain), along)
     }
 

@@ -19,7 +19,7 @@ pub enum ReportError {
     #[error(transparent)]
     File(#[from] FileError),
     /// There is no field of this name at the time.
-    #[error("there is no field `{name}`; there are {known}")]
+    #[error("unknown field `{name}`; known fields are {known}")]
     Field {
         /// Requested name.
         name: String,
@@ -27,7 +27,7 @@ pub enum ReportError {
         known: String,
     },
     /// A field has no component of this name.
-    #[error("`{field}` has no component `{name}`; it has {known}")]
+    #[error("`{field}` has no component `{name}`; its components are {known}")]
     Component {
         /// The field.
         field: String,

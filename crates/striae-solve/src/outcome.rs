@@ -33,7 +33,7 @@ pub enum CutBack {
     },
     /// An element was turned inside out.
     #[error(
-        "body `{body}`, {element}; it is pressed or sheared too far there: move the body by less, load it less, or refine the mesh"
+        "body `{body}`, {element}; the body is compressed or sheared too much there: reduce its displacement or load, or refine the mesh"
     )]
     InvertedElement {
         /// Name of the body.
@@ -53,7 +53,7 @@ pub enum CutBack {
     },
     /// A convected texture has no direction left at a node.
     #[error(
-        "pair `{pair}`: the texture at {node} of body `{body}`, or opposite to it, has no direction left"
+        "pair `{pair}`: the texture at {node} of body `{body}`, or opposite to it, has no tangential part any more"
     )]
     CollapsedTexture {
         /// Name of the pair.
@@ -75,7 +75,7 @@ pub enum CutBack {
     },
     /// Nodes outside the contact zone ran into the other side.
     #[error(
-        "pair `{pair}`: {} nodes met the other surface unnoticed, first {node} of body `{body}`",
+        "pair `{pair}`: {} nodes reached the other surface undetected, the first is {node} of body `{body}`",
         count
     )]
     MissedContact {
@@ -90,7 +90,7 @@ pub enum CutBack {
     },
     /// Bodies have gone through each other.
     #[error(
-        "pair `{pair}`: {node} of `{body}` went through `{other}`, or {depth:.3e} into it, and contact did not see it"
+        "pair `{pair}`: {node} of `{body}` passed through `{other}`, or {depth:.3e} into it, undetected by contact"
     )]
     Passage {
         /// Name of the pair.
@@ -122,7 +122,7 @@ pub enum CutBack {
     },
     /// Friction pushes a node along its slip.
     #[error(
-        "pair `{pair}`: friction pushes {node} of `{body}` along its slip, which gains {work:.1e}, {:.0} % of what friction works at the nodes around",
+        "pair `{pair}`: friction pushes {node} of `{body}` in the direction of its slip and gains the energy {work:.1e}, {:.0} % of the frictional work at the nodes around it",
         100.0 * share
     )]
     Gain {
@@ -139,7 +139,7 @@ pub enum CutBack {
     },
     /// A body has jumped.
     #[error(
-        "body `{body}` would jump by {way:.3e} against its loads, where nothing is moved by more than {driven:.3e}"
+        "body `{body}` would jump by {way:.3e} against its loads, although no prescribed displacement exceeds {driven:.3e}"
     )]
     Jump {
         /// Name of the body.
@@ -159,7 +159,7 @@ pub enum CutBack {
     },
     /// Contact that held a body has opened.
     #[error(
-        "pair `{pair}` lets go: {motion}; hold it by displacements, set `stabilise = true` in pair `{pair}`, or give the step inertia with `dynamics = {{}}`"
+        "contact in pair `{pair}` opened and nothing else restrains the bodies: {motion}; prescribe displacements, set `stabilise = true` in pair `{pair}`, or give the step inertia with `dynamics = {{}}`"
     )]
     Released {
         /// Name of the pair.
@@ -169,7 +169,7 @@ pub enum CutBack {
     },
     /// Stabilisation has not carried a body to contact that holds it.
     #[error(
-        "{motion} where stabilisation ends, which is at the end of the step; pair `{pair}` {}",
+        "{motion} at the end of the step, where stabilisation ends; pair `{pair}` {}",
         gap_text(*gap)
     )]
     NotBridged {
@@ -182,7 +182,7 @@ pub enum CutBack {
     },
     /// Friction does not hold a body against its loads.
     #[error(
-        "limit of friction reached: {} of pair `{pair}` slip, {motion}, with {reached:.4} of the step done",
+        "limit of friction reached: {} of pair `{pair}` slip, {motion}, at the fraction {reached:.4} of the step",
         all_nodes(*sticking)
     )]
     FrictionLimit {
@@ -197,7 +197,7 @@ pub enum CutBack {
     },
     /// The loads on a body act beside what it stands on.
     #[error(
-        "body `{body}` tips over the edge of what `{other}` supports: its loads act beside the surfaces of pair `{pair}` that touch, and nothing else holds it, with {reached:.4} of the step done"
+        "body `{body}` tips over the edge of its support `{other}`: its loads act outside the touching surfaces of pair `{pair}`, and nothing else restrains it, at the fraction {reached:.4} of the step"
     )]
     Tips {
         /// Name of the body.
@@ -211,7 +211,7 @@ pub enum CutBack {
     },
     /// A body has flown off.
     #[error(
-        "body `{body}` flies off: {node} would move by {way:.1e}, {times:.0e} times the size of the model. Nothing holds it, or loads are far beyond its stiffness: hold it by displacements or contact, give the step inertia with `dynamics = {{}}`, or compare loads per area with Young's modulus"
+        "body `{body}` flies off: {node} would move by {way:.1e}, {times:.0e} times the size of the model. Nothing restrains it, or loads far exceed its stiffness: restrain it by displacements or contact, give the step inertia with `dynamics = {{}}`, or compare loads per area with Young's modulus"
     )]
     Flown {
         /// Name of the body.
@@ -244,11 +244,11 @@ pub enum Start {
 
 fn overlap_text(body: &str, node: striae_mesh::NodeId, other: &str, depth: f64) -> String {
     let through = match body == other {
-        true => format!("body `{body}` goes through itself: {node} is {depth:.3e} inside"),
+        true => format!("body `{body}` passes through itself: {node} is {depth:.3e} inside"),
         false => format!("{node} of `{body}` is {depth:.3e} inside `{other}`"),
     };
     format!(
-        "{through}, and no pair lets the surfaces there touch; let everything touch (`all = true` of `[contact]`), state a pair of them, or keep them apart"
+        "{through}, and no pair joins the surfaces there; let everything touch (`all = true` of `[contact]`), add a pair, or keep them apart"
     )
 }
 
@@ -259,13 +259,13 @@ fn solving(place: &str, error: &SolveError) -> String {
             "; displacements, a tie or another pair prescribe how both surfaces move there: prescribe nodes away from the contact surface, or leave the facets around this node out of the pair".to_owned()
         }
         SolveError::Singular { .. } => {
-            "; prescribe displacements that hold it, load it towards what it touches, or set `stabilise = true` in its pair".to_owned()
+            "; prescribe displacements that restrain it, load it towards the bodies it touches, or set `stabilise = true` in its pair".to_owned()
         }
         SolveError::NotFinite { .. } => {
-            " has a term that is infinite or not a number; are moduli, sizes and loads in one system of units, and have all facets there an area?".to_owned()
+            " has a term that is infinite or not a number; check that moduli, sizes and loads are in one system of units, and that all facets there have an area".to_owned()
         }
         SolveError::NotPositiveDefinite { .. } => {
-            " resists some motion the wrong way round; take smaller increments, or other constants of the material".to_owned()
+            " has negative stiffness in some motion; use smaller increments, or other material constants".to_owned()
         }
         error => format!(": {error}"),
     }
@@ -274,13 +274,13 @@ fn solving(place: &str, error: &SolveError) -> String {
 fn all_nodes(sticking: usize) -> String {
     match sticking {
         0 => "all nodes".into(),
-        1 => "all nodes but one".into(),
-        count => format!("all nodes but {count}"),
+        1 => "all nodes except one".into(),
+        count => format!("all nodes except {count}"),
     }
 }
 
 fn free_text(stabilise: &Option<String>) -> String {
-    let hold = "prescribe displacements, or let contact hold it from the start";
+    let hold = "prescribe displacements, or start with contact closed";
     match stabilise {
         None => hold.into(),
         Some(pair) => format!("{hold}, or set `stabilise = true` in pair `{pair}`"),
@@ -289,9 +289,9 @@ fn free_text(stabilise: &Option<String>) -> String {
 
 fn gap_text(gap: f64) -> String {
     if gap > 0.0 {
-        format!("is {gap:.3e} apart: load the body towards the other side, or hold it")
+        format!("is {gap:.3e} apart: load the body towards the other side, or restrain it")
     } else {
-        "touches, but does not hold it: prescribe displacements, or give it friction".into()
+        "touches, but does not restrain it: prescribe displacements, or give it friction".into()
     }
 }
 
@@ -339,7 +339,10 @@ impl std::fmt::Display for FreeMotion {
         let motions = &self.motions;
         match &self.mover {
             FreeMover::Body(name) => {
-                write!(f, "body `{name}` is not held: it is free to move {motions}")
+                write!(
+                    f,
+                    "body `{name}` is not restrained: it is free to move {motions}"
+                )
             }
             FreeMover::Rigid(name) => write!(f, "{motions} of `{name}` is free"),
         }

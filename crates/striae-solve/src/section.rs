@@ -47,7 +47,7 @@ pub enum SectionError {
     #[error("all elements of the body are {0}")]
     OneSided(Part),
     /// No face is shared by both parts.
-    #[error("what is in front of the plane has no face in common with what is behind it")]
+    #[error("no element face lies between the parts in front of and behind the plane")]
     Apart,
 }
 

@@ -27,7 +27,7 @@ pub enum Error {
     Problem(#[from] ProblemError),
     /// The machine has not the memory.
     #[error(
-        "{unknowns} unknowns take about {:.1} GB, and {:.1} GB are available; choose `backend = \"iterative\"` where another one is stated, a coarser mesh, or a larger machine",
+        "not enough memory: {unknowns} unknowns take about {:.1} GB, but only {:.1} GB are available; set `backend = \"iterative\"` unless it is set already, or use a coarser mesh or a larger machine",
         needed / 1e9, available / 1e9
     )]
     Memory {

@@ -327,7 +327,7 @@ fn what_is_not_there_is_refused_where_it_is_written() {
         (
             "[2.4, 3.3, 0.7]",
             "[0, 0, 0]",
-            "probe `middle` is nowhere: (0, 0, 0) is outside",
+            "probe `middle` cannot be placed: (0, 0, 0) is outside",
         ),
         (
             r#"nodes = "zmax" },

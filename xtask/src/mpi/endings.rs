@@ -227,7 +227,7 @@ impl<'a> Trials<'a> {
         let both = format!("kill -TERM {whom}; sleep 0.01; kill -TERM {whom} || true");
         run.disturb("sh", &["-c".into(), both])?;
         let ended = run.ended()?;
-        expect(name, &ended, None, &["interrupt again to stop at once"])?;
+        expect(name, &ended, None, &["interrupt again to stop immediately"])?;
         self.resumed("pad", name, (&ended, &folder), 2)
     }
 

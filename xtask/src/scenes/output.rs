@@ -31,7 +31,7 @@ impl History {
         let columns: HashMap<String, usize> = names.map(|(i, n)| (n.to_owned(), i)).collect();
         let number = |cell: &str| {
             cell.parse::<f64>()
-                .map_err(|_| format!("`{cell}` is no number"))
+                .map_err(|_| format!("`{cell}` is not a number"))
         };
         let row = |line: &str| {
             line.split(',')

@@ -88,16 +88,19 @@ fn line(name: &str, row: &BTreeMap<Class, usize>) -> String {
 const CAUSES: [(&str, &str); 12] = [
     ("no equilibrium", "no equilibrium"),
     ("limit of friction", "limit of friction"),
-    ("lets go", "patch released"),
-    ("is not held", "a body is not held"),
+    ("nothing else restrains", "patch released"),
+    ("is not restrained", "a body is not held"),
     (
         "balance of a contact patch",
         "the balance of a patch is not determined",
     ),
     ("not determined", "an unknown is not determined"),
     ("no longer sees", "a node lost the other surface"),
-    ("no direction left", "a texture lost its direction"),
-    ("unnoticed", "contact was missed"),
+    (
+        "no tangential part any more",
+        "a texture lost its direction",
+    ),
+    ("undetected", "contact was missed"),
     ("inside out", "an element was turned inside out"),
     ("the residual grew", "the residual grew"),
     ("no convergence", "no convergence"),

@@ -80,11 +80,11 @@ pub struct Verdict {
 const PHYSICAL: [&str; 9] = [
     "no equilibrium",
     "limit of friction",
-    "lets go",
+    "nothing else restrains",
     "inverted",
     "turned inside out",
     "Jacobian",
-    "is not held",
+    "is not restrained",
     "overlap",
     "penetrat",
 ];
@@ -115,7 +115,7 @@ pub fn judge(
     };
     match status.code() {
         Some(0) => {}
-        Some(2) if run.log.contains("not held") || overlaps_named(scene, &run.log) => {
+        Some(2) if run.log.contains("not restrained") || overlaps_named(scene, &run.log) => {
             return verdict(Class::Named, last, Findings::default(), 0);
         }
         Some(2) => return verdict(Class::Refused, run.log.clone(), Findings::default(), 0),
@@ -191,7 +191,7 @@ fn is_told(findings: &Findings, summary: &Summary) -> bool {
 fn completed(findings: &Findings, summary: &Summary, log: &str) -> Class {
     let failed: Vec<&str> = findings.failed().map(|(name, _)| name).collect();
     // Contact below what the mesh resolves, which the depth check bounds and the run tells.
-    if failed == ["contact"] && log.contains("contact does not feel it") {
+    if failed == ["contact"] && log.contains("unnoticed by contact") {
         return Class::Warned;
     }
     if is_told(findings, summary) && summary.status == "completed" {

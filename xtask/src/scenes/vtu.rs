@@ -52,7 +52,9 @@ impl Grid {
         let underscore = position(&bytes[section..], b"_").ok_or("the data do not begin")?;
         let appended = &bytes[section + underscore + 1..];
         let text = String::from_utf8_lossy(&bytes[..section]);
-        let file = tags(&text, "VTKFile").next().ok_or("this is no VTK file")?;
+        let file = tags(&text, "VTKFile")
+            .next()
+            .ok_or("this is not a VTK file")?;
         let reader = Reader {
             appended,
             compressed: attribute(file, "compressor").is_some(),
@@ -208,7 +210,7 @@ fn numbers(kind: &str, bytes: &[u8]) -> Result<Vec<f64>, String> {
         ($number:ty) => {{
             let (chunks, rest) = bytes.as_chunks::<{ size_of::<$number>() }>();
             if !rest.is_empty() {
-                return Err("its length is no multiple of its numbers'".into());
+                return Err("its length is not a multiple of its numbers'".into());
             }
             Ok(chunks
                 .iter()

@@ -62,11 +62,11 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     }
     for (name, warnings) in [("A", warned(&one, &other)), ("B", warned(&other, &one))] {
         for warning in warnings {
-            writeln!(out, "only {name} warns: {warning}")?;
+            writeln!(out, "warning only in {name}: {warning}")?;
         }
     }
     let (times, mut differences) = compared(&first, &second);
-    writeln!(out, "times that both have: {times}")?;
+    writeln!(out, "common times: {times}")?;
     for (name, only) in [
         ("A", missing(&first, &second)),
         ("B", missing(&second, &first)),
@@ -79,11 +79,11 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     write!(out, "{}", listed(&differences))?;
     let verdict = match differences.first() {
         _ if one.status != other.status => Some("only one of them completed".to_owned()),
-        _ if times == 0 => Some("they have no time in common".to_owned()),
+        _ if times == 0 => Some("they have no common time".to_owned()),
         // What is no number does not agree either.
         Some(worst) if worst.relative > arguments.tolerance || worst.relative.is_nan() => {
             Some(format!(
-                "`{}` by {:.1e} of its largest value, and {:e} is allowed",
+                "`{}` by {:.1e} of its largest value, but only {:e} is allowed",
                 worst.column, worst.relative, arguments.tolerance
             ))
         }

@@ -261,7 +261,7 @@ fn intervals(found: &Fit) -> String {
             Some([low, high]) if low.is_finite() => {
                 format!("   {level} % within {low:.4} .. {high:.4}")
             }
-            Some(_) => "   open: the measurements do not bound it".to_owned(),
+            Some(_) => "   unbounded by the measurements".to_owned(),
             None => String::new(),
         };
         let name = one.name.to_string();
@@ -287,11 +287,10 @@ fn verdict(found: &Fit, readings: &[Reading]) -> String {
                 found.degrees_of_freedom
             );
         }
-        None => text += ", as many as constants: there is nothing to tell their errors by",
+        None => text += ", as many as constants: their errors cannot be estimated",
     }
     if found.standing == Standing::AtBound {
-        text += "\n  the law that is closest to the readings would create energy; this is the \
-                 closest one that does not. Look at the angles of the readings, or try another law";
+        text += "\n  the law closest to the readings would create energy; this is the closest one that does not. Check the angles of the readings, or try another law";
     }
     text
 }

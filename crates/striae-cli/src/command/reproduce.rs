@@ -164,7 +164,7 @@ fn reproduced(
     if study.enforcement.is_some() {
         writeln!(
             out,
-            "Nothing is judged: what is expected holds for the enforcement of the decks.\n"
+            "No verdict: expected values hold for the enforcement of the decks only.\n"
         )?;
     }
     writeln!(out, "{}", runs(&study))?;

@@ -97,7 +97,8 @@ impl<'a> Model<'a> {
             };
             let targets = self.targets(word);
             if targets.is_empty() {
-                let what = format!("*BOUNDARY of `{word}`, which is on no body and no rigid body");
+                let what =
+                    format!("*BOUNDARY of `{word}`, which belongs to no body and no rigid body");
                 self.list(row.line, what);
             }
             for target in targets {

@@ -40,7 +40,8 @@ impl Cards {
         stated: Option<Formulation>,
     ) -> Result<Vec<BodySection>, String> {
         if self.sections.is_empty() {
-            let cause = "it gives no element set a material, as *SOLID SECTION of Abaqus does";
+            let cause =
+                "it assigns no material to an element set, as *SOLID SECTION of Abaqus does";
             return Err(cause.to_owned());
         }
         let sections = self.sections.iter();

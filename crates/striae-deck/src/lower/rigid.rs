@@ -84,7 +84,9 @@ fn solid(
             striae_solve::solid::inertia(positions, facets, density.value.0)
                 .map_err(|error| error.to_string())
         }
-        RigidShape::Plane { .. } | RigidShape::Bare => Err("only a `mesh` has an inside".into()),
+        RigidShape::Plane { .. } | RigidShape::Bare => {
+            Err("only a `mesh` encloses a volume".into())
+        }
     };
     let fault = |cause| {
         let rigid = name.into();

@@ -19,11 +19,11 @@ use super::{Material, Past, Present, Response, ResponseError};
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Violation {
     /// A deformation near the state of rest has no answer.
-    #[error("the law has no answer to a deformation gradient near the identity: {0}")]
+    #[error("the law fails for a deformation gradient near the identity: {0}")]
     NoResponse(ResponseError),
     /// Energy or stress at rest.
     #[error(
-        "at rest the energy is {energy:.6e} and the norm of the stress {stress:.6e}, both must be 0"
+        "at rest the energy is {energy:.6e} and the norm of the stress {stress:.6e}, but both must be 0"
     )]
     Rest {
         /// Stored energy.
@@ -41,7 +41,7 @@ pub enum Violation {
     #[error("the tangent differs from its transpose by {0:.3e} of its norm")]
     Asymmetric(f64),
     /// Less than nothing is dissipated.
-    #[error("the dissipation of an increment is {0:.6e}, it must not be negative")]
+    #[error("the dissipation of an increment is {0:.6e}, but it must not be negative")]
     Dissipation(f64),
     /// A rotation changes the energy or more than the direction of the stress.
     #[error(

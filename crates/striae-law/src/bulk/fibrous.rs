@@ -77,15 +77,15 @@ pub struct Fibrous {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum InadmissibleFibres {
     /// There is none.
-    #[error("there is no family of fibres, at least one is needed")]
+    #[error("there is no family of fibres, but at least one is needed")]
     None,
     /// The ground is of another law.
     #[error(
-        "fibres need a neo-Hookean solid or rubber that does not relax around them, not one that is {0}"
+        "fibres need a neo-Hookean solid or rubber without relaxation around them, not a solid that is {0}"
     )]
     Ground(String),
     /// A constant out of its range.
-    #[error("`{name}` of family {family} is {value}, it must be {expected}")]
+    #[error("`{name}` of family {family} is {value}, but it must be {expected}")]
     Constant {
         /// Number of the family, from 0.
         family: usize,

@@ -39,7 +39,7 @@ pub enum HardeningForm {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum InadmissibleHardening {
     /// A constant is out of its range.
-    #[error("`{name}` is {value}, it must be {needed}")]
+    #[error("`{name}` is {value}, but it must be {needed}")]
     Constant {
         /// Name of the constant.
         name: &'static str,
@@ -50,7 +50,7 @@ pub enum InadmissibleHardening {
     },
     /// Saturation below the first yield stress.
     #[error(
-        "the stress of saturation is {saturation}, it must be at least `yield_stress`, {first}"
+        "the saturation stress is {saturation}, but it must be at least `yield_stress`, {first}"
     )]
     Saturation {
         /// The stress of saturation.
@@ -63,7 +63,7 @@ pub enum InadmissibleHardening {
     Start,
     /// A pair of a table that does not follow the one before.
     #[error(
-        "pair {0} of the table: its plastic strain must be larger than that before, its stress positive and not smaller"
+        "pair {0} of the table: its plastic strain must be larger than the previous one, its stress positive and not smaller than the previous one"
     )]
     Order(usize),
 }

@@ -118,13 +118,13 @@ pub type CompactResult = Result<Response<CompactTangent>, ResponseError>;
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum ResponseError {
     /// The material is turned inside out.
-    #[error("the deformation gradient has determinant {determinant:.6e}, it must be positive")]
+    #[error("the deformation gradient has determinant {determinant:.6e}, but it must be positive")]
     Inverted {
         /// Determinant `J` of the deformation gradient.
         determinant: f64,
     },
     /// The material is stretched beyond what its law allows.
-    #[error("the invariant I1 - 3 is {strain:.6e}, the law ends at {limit:.6e}")]
+    #[error("the invariant I1 - 3 is {strain:.6e}, but the law ends at {limit:.6e}")]
     Overstretched {
         /// `I1 - 3` of the isochoric deformation.
         strain: f64,
@@ -132,7 +132,7 @@ pub enum ResponseError {
         limit: f64,
     },
     /// Fibres are stretched beyond all measure.
-    #[error("the strain of fibres is {strain:.6e}, the law ends at {limit:.6e}")]
+    #[error("the strain of fibres is {strain:.6e}, but the law ends at {limit:.6e}")]
     OverstretchedFibres {
         /// Their strain `E`.
         strain: f64,

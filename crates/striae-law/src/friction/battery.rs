@@ -24,16 +24,16 @@ pub enum Violation {
         expected: f64,
     },
     /// Slip dissipates nothing, or friction creates energy.
-    #[error("slip dissipates {0:.6e} times varpi |K z|, it must dissipate a positive amount")]
+    #[error("slip dissipates {0:.6e} times varpi |K z|, but it must dissipate a positive amount")]
     Dissipation(f64),
     /// A force out of the tangent plane.
-    #[error("a force has the normal component {0:.3e} of varpi, it must be tangential")]
+    #[error("a force has the normal component {0:.3e} of varpi, but it must be tangential")]
     NotTangential(f64),
     /// Force or slip differ from those of the closed form.
     #[error("force or slip differ by {0:.3e} from those on the slip surface")]
     ClosedForm(f64),
     /// A rotation of normal and textures does more than turn the answer.
-    #[error("a rotation of normal, textures and slip changes the answer by {0:.3e}")]
+    #[error("a rotation of normal, textures and slip changes the response by {0:.3e}")]
     NotObjective(f64),
     /// Forces on the two surfaces are not opposite.
     #[error("seen from the other surface force or slip differ by {0:.3e}")]

@@ -83,8 +83,7 @@ pub enum FrictionError {
     },
     /// A coefficient of a table is not positive.
     #[error(
-        "mu = {mu} at the angle {degrees:.3} degrees is refused: it must be positive and finite, \
-         for friction would create energy or vanish there"
+        "mu = {mu} at the angle {degrees:.3} degrees is refused: it must be positive and finite, otherwise friction would create energy or vanish there"
     )]
     TableCoefficient {
         /// The coefficient.
@@ -116,8 +115,7 @@ pub enum FrictionError {
     },
     /// A table of factors is too short, or has not one factor a place.
     #[error(
-        "the table has {of_places}: {places}, but {of_values}: {values}; as many of both are \
-         needed, at least two"
+        "the table has {of_places}: {places}, but {of_values}: {values}; it needs equally many of both, at least two"
     )]
     FactorLengths {
         /// Name of the places.

@@ -118,7 +118,7 @@ impl Own {
         normal: &Vector3<D>,
         textures: &Textures<D>,
     ) -> Kernel<'static, D> {
-        debug_assert!(D::NDERIV <= 1, "laws of one's own know first derivatives");
+        debug_assert!(D::NDERIV <= 1, "user-defined laws have first derivatives");
         let none = Vector3::zeros();
         let (own, opposite) = (textures.own, textures.opposite);
         let given = [*normal, own.unwrap_or(none), opposite.unwrap_or(none)];

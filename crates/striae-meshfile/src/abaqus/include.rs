@@ -135,7 +135,7 @@ fn included(
     let file = path.parent().unwrap_or(Path::new("")).join(name);
     if within.contains(&identity(&file)) {
         let found = format!("{}, which includes this file", quoted(name));
-        let expected = "a file that does not lead back here";
+        let expected = "a file that does not include this one again";
         return Err(MeshFileFault::line(line, expected, found));
     }
     match super::super::text(&file) {

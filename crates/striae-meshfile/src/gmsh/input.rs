@@ -242,7 +242,7 @@ impl<'a> Input<'a> {
             self.lines += 1;
             let line = std::str::from_utf8(line.trim_ascii()).map_err(|_| {
                 let place = Place::Byte(place);
-                MeshFileFault::at(place, "a line of text", "bytes that are none")
+                MeshFileFault::at(place, "a line of text", "bytes that are not text")
             })?;
             if !line.is_empty() {
                 return Ok(Some(line));

@@ -115,8 +115,8 @@ impl File<'_> {
                 rest.split_at_checked(count)
             });
             let (cell, behind) = cell.ok_or_else(|| {
-                let expected = "the number of its points and these";
-                let found = format!("a list of {size} numbers that does not fit");
+                let expected = "a cell size followed by as many points";
+                let found = format!("a list of {size} numbers that does not match");
                 MeshFileFault::at(Place::Cell(at), expected, found)
             })?;
             grid.nodes.extend(cell);

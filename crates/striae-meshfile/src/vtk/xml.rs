@@ -27,7 +27,7 @@ pub(super) fn grid(bytes: &[u8]) -> Result<Grid, MeshFileFault> {
         let reason = reason
             .rsplit_once(" at ")
             .map_or(&reason[..], |(reason, _)| reason);
-        MeshFileFault::at(place, "XML", format!("text that is none: {reason}"))
+        MeshFileFault::at(place, "XML", format!("invalid text: {reason}"))
     })?;
     let root = document.root_element();
     let file = File::new(root, appended)?;

@@ -75,7 +75,7 @@ fn unsound<'a>(
     if earlier.any(|other| {
         other.body == stated.body && overlaps(other) && other.kind.is_like(&stated.kind)
     }) {
-        return Some("this kind of actuation is stated twice; leave one of them out".to_owned());
+        return Some("this kind of actuation is stated twice; remove one of them".to_owned());
     }
     let factor = range(&stated.curve)
         .iter()
@@ -177,7 +177,7 @@ fn follow(draft: &Draft<'_>, stated: &Actuation, reached: &mut Reached) -> Optio
     }
     let worst = worst.filter(|sum| sum.is_nan() || *sum <= -1.0)?;
     Some(format!(
-        "its lengths at rest would change by the factor {:.4}, and nothing would be left of them; strains, all kinds together and with the values of their curves, must stay above -1",
+        "its lengths at rest would change by the factor {:.4} and vanish; strains, all kinds together and with the values of their curves, must stay above -1",
         1.0 + worst
     ))
 }

@@ -168,7 +168,7 @@ fn unsuited(pair: &Pair) -> Option<(&'static str, FaultKind)> {
             Some(("interference", on_itself("has no `interference`")))
         }
         true if pair.stabilised => {
-            let why = "holds the body nowhere, so that `stabilise` has no sense";
+            let why = "does not restrain the body, so `stabilise` has no effect";
             Some(("stabilised", on_itself(why)))
         }
         _ if collocated && pair.feature_angle.is_some() => {

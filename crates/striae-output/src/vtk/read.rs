@@ -204,7 +204,7 @@ impl OneFile {
             && cells.ends.len() == cells.shapes.len();
         match sound {
             true => Ok(cells),
-            false => Err("the cells do not fit each other".to_owned()),
+            false => Err("the cell arrays do not match".to_owned()),
         }
     }
 
@@ -240,7 +240,9 @@ pub fn read_series(path: &Path) -> Result<Vec<super::Snapshot>, OutputError> {
         let word = |name| attribute(tag, name).ok_or_else(|| format!("an entry without `{name}`"));
         let entry = || {
             let time = word("timestep")?;
-            let time: f64 = time.parse().map_err(|_| format!("`{time}` is no time"))?;
+            let time: f64 = time
+                .parse()
+                .map_err(|_| format!("`{time}` is not a time"))?;
             Ok((time, plain(word("name")?), plain(word("file")?)))
         };
         let (time, name, file) = entry().map_err(content(path))?;
@@ -272,13 +274,16 @@ fn described(text: &str) -> Result<(Vec<Described>, f64), String> {
             "Points" | "Cells" | "PointData" | "CellData" => group = name.to_owned(),
             "DataArray" if attribute(tag, "Name") == Some("TimeValue") => {
                 let value = tag.split('>').nth(1).unwrap_or_default().trim();
-                time = value.parse().map_err(|_| format!("`{value}` is no time"))?;
+                time = value
+                    .parse()
+                    .map_err(|_| format!("`{value}` is not a time"))?;
             }
             "DataArray" => {
                 let word = |name| attribute(tag, name).ok_or(format!("an array without `{name}`"));
                 let whole = |name| {
                     let word = word(name)?;
-                    word.parse().map_err(|_| format!("`{word}` is no `{name}`"))
+                    word.parse()
+                        .map_err(|_| format!("`{word}` is not a valid `{name}`"))
                 };
                 arrays.push(Described {
                     group: group.clone(),

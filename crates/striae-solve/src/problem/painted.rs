@@ -45,7 +45,7 @@ impl Undirected {
                 "its axis passes through that node, where circles and rays have no direction; move the axis or the mesh so that no node lies on it, or leave the facets around the node out of the pair"
             }
             Self::AlongNormal => {
-                "it is along the normal of the surface there; choose a direction that lies in the surface"
+                "it is normal to the surface there; choose a direction with a tangential part"
             }
         }
     }

@@ -39,7 +39,7 @@ pub enum TieFault {
     },
     /// Facets that face each other from too far away.
     #[error(
-        "tie `{tie}`: at ({:.6}, {:.6}, {:.6}) `{a}` and `{b}` are {gap:.3e} apart, {:.0} % of the facet size. Mend the meshes, leave these facets out, or set `within` to the largest distance that is tied",
+        "tie `{tie}`: at ({:.6}, {:.6}, {:.6}) `{a}` and `{b}` are {gap:.3e} apart, {:.0} % of the facet size. Repair the meshes, leave these facets out, or set `within` to the largest distance to be tied",
         at.x, at.y, at.z, 100.0 * share
     )]
     Apart {
@@ -58,7 +58,7 @@ pub enum TieFault {
     },
     /// No node is left that could follow.
     #[error(
-        "tie `{tie}` holds nothing: {reason}. Refine one of the surfaces, or leave facets that meet others out"
+        "tie `{tie}` holds nothing: {reason}. Refine one of the surfaces, or leave out facets that meet others"
     )]
     Loose {
         /// The tie.
@@ -68,7 +68,7 @@ pub enum TieFault {
     },
     /// Ties that follow each other in a circle.
     #[error(
-        "ties {} follow each other in a circle where they meet, and their rows say the same; make one of the surfaces finer than both it meets, or leave the facets at the common edge out of one tie",
+        "ties {} depend on each other in a cycle where they meet, and their equations are redundant; make one of the surfaces finer than the two it meets, or leave the facets at the common edge out of one tie",
         quoted(ties)
     )]
     Circle {
@@ -77,7 +77,7 @@ pub enum TieFault {
     },
     /// Moving nodes would turn an element inside out.
     #[error(
-        "tie `{tie}`: moving the nodes of `{body}` by up to {moved:.3e} onto the other surface would turn {element} inside out; refine the surfaces where they are curved, or mend the mesh"
+        "tie `{tie}`: moving the nodes of `{body}` by up to {moved:.3e} onto the other surface would turn {element} inside out; refine the surfaces where they are curved, or repair the mesh"
     )]
     Inverted {
         /// The tie.

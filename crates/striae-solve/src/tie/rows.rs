@@ -212,8 +212,8 @@ pub(super) fn rows(
             faults.push(TieFault::Loose {
                 tie: model.ties[tie].name.clone(),
                 reason: match of_tie.candidates(of_tie.follows, &bound).is_empty() {
-                    true => "all its nodes are prescribed, held by rigid bodies or hardly covered",
-                    false => "all its nodes that could follow are those of other ties",
+                    true => "all its nodes are prescribed, tied to rigid bodies or hardly covered",
+                    false => "all nodes that it could tie belong to other ties",
                 },
             });
         }

@@ -45,7 +45,7 @@ pub enum TextureError {
     NothingPainted,
     /// Two painted places fall on the same node.
     #[error(
-        "{node} is painted twice: it is the nearest node of two painted places; drop one of them or refine the surface"
+        "{node} is painted twice: it is the nearest node of two painted places; remove one of them or refine the surface"
     )]
     PaintedTwice {
         /// The node.

@@ -46,7 +46,7 @@ pub(super) fn look(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) {
         }
         let name = &body.name;
         let text = format!(
-            "body `{name}` is {:.3e} thick and {:.3e} long; in bending its elements, {:.3e} long, are about {:.1} times as stiff as they should be",
+            "body `{name}` is {:.3e} thick and {:.3e} long; in bending its elements, {:.3e} long, are about {:.1} times too stiff",
             frame.lengths[0],
             frame.lengths[2],
             frame.element(&body.mesh),

@@ -26,7 +26,7 @@ pub(super) fn look(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) {
         if looks_away(model, pair) || turned(model, PairId(index)).is_some() {
             let [a, b] = [Side::B, Side::A].map(|side| other_name(model, PairId(index), side));
             let text = format!(
-                "pair `{}`: the surface of `{a}` looks away from that of `{b}`, so they cannot touch; name the facets that face each other, or turn the normal of a rigid side round",
+                "pair `{}`: the surface of `{a}` faces away from that of `{b}`, so they cannot touch; name the facets that face each other, or reverse the normal of a rigid side",
                 pair.name
             );
             advice.warn(Topic::Facing, &pair.name, text);

@@ -43,7 +43,7 @@ pub(super) fn look(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) {
         let mut motions = prescribed(&body.mesh, step, id);
         match motions.left() {
             0 => {
-                let text = format!("body `{}` is held by its prescribed nodes", body.name);
+                let text = format!("body `{}` is restrained by its prescribed nodes", body.name);
                 advice.note(Topic::Hold, &body.name, text);
             }
             _ => by_contact(model, fits, (id, body), &mut motions, advice),
@@ -103,17 +103,17 @@ fn by_contact(
         stop_by(model, PairId(pair), id, motions);
     }
     if motions.left() == 0 {
-        let text = format!("{text}; contact of {} has to hold it", list(&closed));
+        let text = format!("{text}; contact of {} must restrain it", list(&closed));
         advice.note(Topic::Hold, name, text);
         return;
     }
     let left = motions.words();
     let why = match (&closed[..], &open[..]) {
         (_, []) => format!(
-            "the contact of {} leaves it free {left}, as it has no friction",
+            "the contact of {} leaves it free {left}, as it is frictionless",
             list(&closed)
         ),
-        ([], _) => format!("nothing holds it before {} closes", list(&open)),
+        ([], _) => format!("nothing restrains it before {} closes", list(&open)),
         _ => format!(
             "with the contact of {} it is free {left} before {} closes",
             list(&closed),
@@ -123,7 +123,7 @@ fn by_contact(
     let remedy = match &open[..] {
         [] => "prescribe these motions",
         _ => {
-            "prescribe these motions, begin with the surfaces in contact, or set `stabilise = true` in the pair"
+            "prescribe these motions, start with the surfaces in contact, or set `stabilise = true` in the pair"
         }
     };
     let text = format!("{text}, and {why}; {remedy}");

@@ -167,12 +167,12 @@ fn pressed(pair: &Pair, fit: &Fit, ways: &[Way], advice: &mut Advice) {
         return;
     }
     let text = format!(
-        "pair `{}`: step `{}` moves `{a}` and `{b}` by {:.3e} towards each other, from a gap of {gap:.3e}, and what is pressed between is {:.3e} high",
+        "pair `{}`: step `{}` moves `{a}` and `{b}` by {:.3e} towards each other, from a gap of {gap:.3e}, and the material pressed between them is {:.3e} high",
         pair.name, way.step.name, way.towards, way.height
     );
     if share(way) >= PRESSED[1] {
         let text = format!(
-            "{text}: nothing would be left of it; move it by less, and compare the units of mesh and displacements"
+            "{text}: it would be crushed completely; reduce the displacement, and compare the units of mesh and displacements"
         );
         advice.warn(Topic::Units, &pair.name, text);
     } else if share(way) > PRESSED[0] {

@@ -43,7 +43,7 @@ pub(super) fn look(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) {
                 Topic::Fit,
                 name,
                 format!(
-                    "pair `{name}`: in step `{}` about {touching} of {all} nodes come to the plane; pressures of a curved contact need about five elements over its radius, forces three",
+                    "pair `{name}`: in step `{}` about {touching} of {all} nodes touch the plane; pressures of a curved contact need about five elements over its radius, forces three",
                     step.name
                 ),
             );

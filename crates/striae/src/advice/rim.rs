@@ -35,7 +35,7 @@ pub(super) fn look(model: &Model, advice: &mut Advice) {
                 let x = mesh.positions[first.index()];
                 let body = &model.bodies[body.0].name;
                 let text = format!(
-                    "pair `{}`: in step `{}` {how}, and the surface of `{body}` goes on smoothly beyond the facets of the pair, as at ({:.6}, {:.6}, {:.6}); facets outside it are not in contact: add the neighbours to the facets of the pair",
+                    "pair `{}`: in step `{}` {how}, and the surface of `{body}` continues smoothly beyond the facets of the pair, as at ({:.6}, {:.6}, {:.6}); facets outside it are not in contact: add the neighbours to the facets of the pair",
                     pair.name, step.name, x.x, x.y, x.z
                 );
                 advice.warn(Topic::Fit, &pair.name, text);
@@ -101,7 +101,7 @@ fn reached(
     if let Some(angle) = rolls(model, body, faces, step) {
         let name = &model.bodies[body.0].name;
         return Some(format!(
-            "`{name}` turns by {:.0} degrees",
+            "`{name}` rotates by {:.0} degrees",
             angle.to_degrees()
         ));
     }

@@ -39,7 +39,7 @@ pub(super) fn look(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) {
         let sagitta = sagittas[0].max(sagittas[1]);
         if sagitta > BESIDE * depth {
             let text = format!(
-                "pair `{}`: the deepest overlap of the meshes, {depth:.3e}, lies beside the sagitta of their facets, {sagitta:.3e}: facets are chords of curved surfaces, so where the meshes do not match the pressure is wrong by about {:.0} %. State the overlap of the surfaces as `interference` in place of `initial = \"resolve\"`, or refine the meshes around",
+                "pair `{}`: the deepest overlap of the meshes, {depth:.3e}, is comparable to the sagitta of their facets, {sagitta:.3e}: facets are chords of curved surfaces, so where the meshes do not match the pressure is wrong by about {:.0} %. State the overlap of the surfaces as `interference` instead of `initial = \"resolve\"`, or refine the meshes around it",
                 pair.name,
                 100.0 * sagitta / depth
             );

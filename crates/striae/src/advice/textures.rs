@@ -39,7 +39,7 @@ fn on_plane(model: &Model, pair: &Pair, advice: &mut Advice) {
             Topic::Texture,
             name,
             format!(
-                "pair `{name}`: the texture of `{plane}` is only {:.1} degrees from its normal; what is left of it in the plane gives the direction",
+                "pair `{name}`: the texture of `{plane}` is only {:.1} degrees from its normal; its small tangential part gives the direction",
                 sine.asin().to_degrees()
             ),
         );

@@ -66,7 +66,7 @@ fn loads(model: &Model, body: BodyId, [soft, stiff]: [f64; 2], advice: &mut Advi
             Topic::Units,
             name,
             format!(
-                "{}, hardly any; are both in one system of units, such as N, mm and MPa, or N, m and Pa?",
+                "{}, which is hardly any; are both in one system of units, such as N, mm and MPa, or N, m and Pa?",
                 about(soft)
             ),
         );
@@ -95,7 +95,7 @@ fn forces(model: &Model, body: BodyId, modulus: f64, advice: &mut Advice) {
             Topic::Units,
             name,
             format!(
-                "body `{name}`: the largest force that drives what it meets, {largest:.3e}, hardly strains a body of the size {size:.3e} and Young's modulus {modulus:.3e} (by some {strain:.1e}); are they in one system of units?"
+                "body `{name}`: the largest force that drives the bodies it meets, {largest:.3e}, hardly strains a body of size {size:.3e} and Young's modulus {modulus:.3e} (by about {strain:.1e}); are they in one system of units?"
             ),
         );
     }
@@ -152,7 +152,7 @@ fn waves(body: &Body, part: &Part, advice: &mut Advice) {
             Topic::Units,
             name,
             format!(
-                "{about}: with Young's modulus {modulus:.3e} and density {density:.3e} waves would run at {speed:.1e}, faster than in any solid; with N, mm and s densities are in t/mm^3 and moduli in MPa"
+                "{about}: with Young's modulus {modulus:.3e} and density {density:.3e} waves would travel at {speed:.1e}, faster than in any solid; with N, mm and s densities are in t/mm^3 and moduli in MPa"
             ),
         );
     }

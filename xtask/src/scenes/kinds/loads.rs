@@ -133,7 +133,11 @@ pub fn forces(random: &mut Random, _: Dialect) -> Scene {
             laid.scene.claims.push(claim);
         }
     } else {
-        laid.scene.ending = Ending::Stops(&["limit of friction", "no equilibrium", "lets go"]);
+        laid.scene.ending = Ending::Stops(&[
+            "limit of friction",
+            "no equilibrium",
+            "nothing else restrains",
+        ]);
     }
     laid.scene
 }

@@ -145,7 +145,7 @@ impl Runs<'_> {
                 failed(code, reason(&words))
             }
             Some(Err(cause)) => failed(None, cause.to_string()),
-            None => failed(None, "it is gone".to_owned()),
+            None => failed(None, "its process disappeared".to_owned()),
         }
     }
 
@@ -187,5 +187,8 @@ fn reason(said: &[u8]) -> String {
     let mut lines = said.lines().map(str::trim).filter(|line| {
         !line.is_empty() && !line.starts_with("warning:") && !line.starts_with("stopping after")
     });
-    lines.next().unwrap_or("it ended without a word").to_owned()
+    lines
+        .next()
+        .unwrap_or("it ended without a message")
+        .to_owned()
 }

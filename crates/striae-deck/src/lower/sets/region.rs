@@ -33,7 +33,7 @@ impl Within {
 fn found<T>(mesh: &Mesh, members: Vec<T>) -> Found<T> {
     let (low, high) = mesh.bounds();
     let hint = format!(
-        "the body reaches from ({}, {}, {}) to ({}, {}, {})",
+        "the body extends from ({}, {}, {}) to ({}, {}, {})",
         low.x, low.y, low.z, high.x, high.y, high.z
     );
     Found {

@@ -200,4 +200,4 @@ impl<'a> Words<'a> {
 }
 
 const END: &str = "the end of the file";
-const NO_TEXT: &str = "bytes that are no text";
+const NO_TEXT: &str = "bytes that are not text";
