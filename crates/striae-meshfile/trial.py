@@ -1,13 +1,13 @@
 """Mesh files of other programs: ``python crates/striae-meshfile/trial.py [STRIAE]``.
 
 Gmsh's and meshio's Python packages (``pip install gmsh meshio``) write ten meshes - linear and
-ten-node tetrahedra, hexahedra of 8, 20 and 27 nodes, wedges of 6 and 15, tetrahedra with
-pyramids, two volumes, and one without groups - in every format that they and striae have in
-common. Each file is shown by ``striae mesh`` and moved for one increment by ``striae run``.
-STRIAE is the program, ``target/release/striae`` where nothing is said.
+ten-node tetrahedra, hexahedra of 8, 20 and 27 nodes, wedges of 6 and 15, tetrahedra with pyramids,
+two volumes, and one without groups - in every format that they and striae have in common. Each file
+is shown by ``striae mesh`` and moved for one increment by ``striae run``. STRIAE is the program,
+``target/release/striae`` by default.
 
 Prints a line for each file that cannot be made or read, then how many each program wrote and how
-many of these are read and run; ends with 1 where one fails. Files are kept in ``target/trial``.
+many of these are read and run; ends with 1 if one fails. Files are kept in ``target/trial``.
 
 Gmsh's lists of bounding entities are not given to meshio: it writes them to Abaqus files as sets
 of elements with numbers that no element has, zero and negative ones among them, and such a file
@@ -60,7 +60,7 @@ displacement = [{{ body = "body", nodes = "all", x = 0, y = 0, z = 0.01 }}]
 
 
 def shape(kind: str) -> None:
-    """Makes the solids of a mesh, with what its kinds of cells need."""
+    """Makes the solids of a mesh, as its kinds of cells need them."""
     occ, mesh = gmsh.model.occ, gmsh.model.mesh
     if kind == "two-volumes":
         boxes = [(3, occ.addBox(0, 0, z, 1, 1, 1)) for z in (0, 1)]
@@ -87,7 +87,7 @@ def shape(kind: str) -> None:
 
 
 def name_groups() -> None:
-    """Names volumes, the lower side, and what is between two volumes."""
+    """Names volumes, the lower side, and the interface of two volumes."""
     for at, (_, volume) in enumerate(gmsh.model.getEntities(3)):
         gmsh.model.addPhysicalGroup(3, [volume], name=f"part{at}")
     heights = {
@@ -144,14 +144,14 @@ def by_meshio(kind: str) -> Iterator[Path]:
 
 
 def said(*arguments: str) -> tuple[int, str]:
-    """Exit code and words of striae."""
+    """Exit code and output of striae."""
     command = [str(STRIAE), *arguments]
     found = subprocess.run(command, cwd=FOLDER, capture_output=True, text=True)
     return found.returncode, (found.stdout + found.stderr).strip()
 
 
 def outcome(file: Path) -> str:
-    """What is wrong with a file, nothing where all is well."""
+    """Fault of a file; empty if there is none."""
     code, words = said("mesh", file.name)
     if code == 0 and "nodes" not in words:
         return f"`striae mesh` says {words!r}"
@@ -165,7 +165,7 @@ def outcome(file: Path) -> str:
 
 
 def main() -> int:
-    """Makes and reads all files; whether one failed."""
+    """Makes and reads all files; returns 1 if one failed."""
     FOLDER.mkdir(parents=True, exist_ok=True)
     counts: dict[str, list[int]] = {}
     for kind in KINDS:

@@ -1,10 +1,10 @@
-//! Finds PETSc, where it is asked for.
+//! Finds PETSc, if requested.
 
 use std::{env, process::Command};
 
 /// Oldest version that is known to do.
 const OLDEST: [u32; 2] = [3, 18];
-/// What to do where there is none.
+/// Advice if no PETSc is found.
 const ADVICE: &str = "the feature `petsc` needs PETSc 3.18 or newer with real numbers, \
     found by pkg-config as `PETSc` or `petsc`; on Debian and Ubuntu: \
     apt-get install libpetsc-real-dev pkg-config libclang-dev. \
@@ -39,7 +39,7 @@ fn main() -> Result<(), String> {
     Ok(())
 }
 
-/// What pkg-config answers, if it does.
+/// Output of pkg-config, if it succeeds.
 fn asked(arguments: &[&str]) -> Option<String> {
     let answer = Command::new("pkg-config").args(arguments).output().ok()?;
     let text = String::from_utf8(answer.stdout).ok()?;

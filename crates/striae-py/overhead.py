@@ -1,8 +1,8 @@
 """Overhead of an empty callback: ``python crates/striae-py/overhead.py``.
 
-A model is run with and without a callback in turn, with one thread. What counts is the time of
-the processor, the least of several runs of each kind, as other programs can only add to it; more
-runs are made, up to a limit, until it is below the bound. Ends with 1 above 2 %.
+A model is run with and without a callback in turn, with one thread. Compared are processor times,
+the smallest of several runs of each kind, as other programs can only add to them; runs are
+repeated, up to a limit, until the overhead is below the bound. Ends with 1 above 2 %.
 """
 
 import sys
@@ -22,7 +22,7 @@ model.step("drag", body["zmax"].displace(x=0.2), increments=25)
 
 
 def seconds(callback: bool) -> float:
-    """Time of the processor for a run."""
+    """Processor time of a run."""
     begun = time.process_time()
     if callback:
         model.run(lambda increment: None, threads=1)

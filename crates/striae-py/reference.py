@@ -28,7 +28,7 @@ def members(of: type) -> list[tuple[str, object]]:
 
 
 def says_more(member: object) -> bool:
-    """Whether the docstring is one of the package's own."""
+    """Returns whether the docstring is one of the package's own."""
     words = inspect.getdoc(member) or ""
     plain = isinstance(member, (type, int, float, str, tuple))
     return bool(words) and not plain and not words.startswith("Alias for field number")

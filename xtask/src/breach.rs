@@ -7,7 +7,7 @@ use std::fmt;
 pub struct Breach {
     /// A crate, or a file with the number of a line.
     pub place: String,
-    /// What is wrong.
+    /// Description of the breach.
     pub wrong: String,
 }
 

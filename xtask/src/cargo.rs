@@ -13,7 +13,7 @@ pub fn program() -> Result<PathBuf, Fault> {
     Ok(built())
 }
 
-/// Where the program is once it is built.
+/// Path of the program once it is built.
 pub fn built() -> PathBuf {
     let folder = env::var_os("CARGO_TARGET_DIR").map_or("target".into(), PathBuf::from);
     folder.join("release").join("striae")

@@ -55,7 +55,7 @@ const BUILT: [Stage; 3] = [
 /// Runs all checks, up to the first that fails.
 ///
 /// # Errors
-/// What that check found.
+/// Returns the failure of that check.
 pub fn check() -> Result<(), Fault> {
     let started = Instant::now();
     timed(FORMAT.name, || run(&FORMAT))?;

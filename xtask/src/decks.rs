@@ -4,7 +4,7 @@
 pub struct Pad {
     /// Elements along its edges.
     pub divisions: [usize; 3],
-    /// Which surface has grooves.
+    /// Surface that has grooves.
     pub grooved: Grooved,
     /// Increments of the press and of the drag.
     pub increments: [usize; 2],

@@ -4,7 +4,7 @@ use std::{io, path::PathBuf, process::ExitStatus};
 
 use crate::breach::Breach;
 
-/// Why a task failed.
+/// Reason why a task failed.
 #[derive(Debug, thiserror::Error)]
 pub enum Fault {
     /// A program could not be started.
@@ -12,7 +12,7 @@ pub enum Fault {
     Start {
         /// The command line.
         command: String,
-        /// What the operating system says.
+        /// Error of the operating system.
         cause: io::Error,
     },
     /// A program ended with a failure.
@@ -20,7 +20,7 @@ pub enum Fault {
     Failed {
         /// The command line.
         command: String,
-        /// How it ended.
+        /// Exit status.
         status: ExitStatus,
     },
     /// `cargo metadata` printed something else than expected.
@@ -31,11 +31,11 @@ pub enum Fault {
     Unreadable {
         /// The file or folder.
         path: PathBuf,
-        /// What the operating system says.
+        /// Error of the operating system.
         cause: io::Error,
     },
     /// The source text breaks rules of the architecture.
-    #[error("{}\n{} breaches; ARCHITECTURE.md and CONVENTIONS.md give the reasons", lines(.0), .0.len())]
+    #[error("{}\nbreaches: {}; ARCHITECTURE.md and CONVENTIONS.md give the reasons", lines(.0), .0.len())]
     Breaches(Vec<Breach>),
     /// An option is not understood.
     #[error("{0}")]
@@ -63,7 +63,7 @@ pub enum Fault {
     /// Scenes came out wrong.
     #[error("{count} of {of} scenes came out wrong")]
     Scenes {
-        /// How many.
+        /// Number of failures.
         count: usize,
         /// Of how many.
         of: usize,

@@ -59,7 +59,7 @@ const TESTS: [Test; 1] = [Test {
 const RANKS: [usize; 4] = [1, 2, 3, 4];
 /// Ranks of which one panics.
 const PANICKING: usize = 3;
-/// How long the others may take to end.
+/// Time allowed for the others to end.
 const PATIENCE: Duration = Duration::from_secs(30);
 /// Lets Open MPI run more ranks than there are cores, and as root; others do not look.
 const ENVIRONMENT: [(&str, &str); 4] = [
@@ -69,7 +69,7 @@ const ENVIRONMENT: [(&str, &str); 4] = [
     ("RAYON_NUM_THREADS", "1"),
 ];
 
-/// What is run.
+/// Part of the checks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Part {
     Lints,
@@ -88,16 +88,16 @@ impl Part {
         ("scenes", Self::Scenes),
     ];
 
-    /// Whether the program is run.
+    /// Returns whether the part runs the program.
     fn is_of_program(self) -> bool {
         !matches!(self, Self::Lints | Self::Tests)
     }
 }
 
-/// Builds the tests and the program and runs what is asked for, or all.
+/// Builds the tests and the program and runs the requested parts, or all.
 ///
 /// # Errors
-/// What is missing, or the first test that fails.
+/// Returns what is missing, or the first test that fails.
 pub fn check(options: &[String]) -> Result<(), Fault> {
     let (extent, parts) = asked(options)?;
     missing()?;
@@ -126,7 +126,7 @@ pub fn check(options: &[String]) -> Result<(), Fault> {
     Ok(())
 }
 
-/// How much of which parts.
+/// Extent and parts that are requested.
 fn asked(options: &[String]) -> Result<(Extent, Vec<Part>), Fault> {
     let (mut extent, mut parts) = (Extent::Short, Vec::new());
     for option in options {
@@ -162,7 +162,7 @@ fn tests() -> Result<(), Fault> {
     ends_all(TESTS[0].run(PANICKING, &["panic"]))
 }
 
-/// What the tests need and is not here.
+/// Checks that everything the tests need is installed.
 fn missing() -> Result<(), Fault> {
     let answers = |program: &str, arguments: &[&str]| {
         let mut command = Command::new(program);

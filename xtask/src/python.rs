@@ -1,10 +1,10 @@
 //! `cargo xtask python`: the Python package, from its wheel to its tests.
 //!
-//! A virtual environment in the target folder takes the tools from PyPI, maturin builds the
-//! wheel, and the wheel is tested as users have it: types, docstrings, wrong uses, runs, whose
-//! bits are those of the program, and examples. Where several versions of Python are at hand,
-//! on the path or by pyenv, the tests run with the oldest and the newest, by the same wheel.
-//! What a callback costs is told by `crates/striae-py/overhead.py`.
+//! The tools are installed from PyPI into a virtual environment in the target folder, maturin
+//! builds the wheel, and the wheel is tested as users install it: types, docstrings, wrong uses,
+//! runs, whose bits are those of the program, and examples. Where several versions of Python are at
+//! hand, on the path or by pyenv, the tests run with the oldest and the newest, by the same wheel.
+//! The cost of a callback is measured by `crates/striae-py/overhead.py`.
 
 use std::{
     env, fs,
@@ -18,9 +18,9 @@ use crate::{cargo, fault::Fault};
 const OLDEST: u32 = 10;
 /// Versions that are looked for on the path: Python 3.10 to 3.19.
 const NEWEST: u32 = 19;
-/// What is asked of an interpreter: its version, if it can make virtual environments.
+/// Query to an interpreter: prints its version if it can make virtual environments.
 const ASKED: &str = "import sys, venv, ensurepip; print(sys.version_info[1])";
-/// What the tests need besides the wheel.
+/// Packages that the tests need besides the wheel.
 const NEEDED: [&str; 5] = ["pytest", "numpy", "matplotlib", "pandas", "meshio"];
 
 /// Builds the wheel and tests it.
@@ -54,7 +54,7 @@ pub fn check() -> Result<(), Fault> {
     Ok(())
 }
 
-/// Whether the package can be built and tested here.
+/// Returns whether the package can be built and tested here.
 pub fn is_possible() -> bool {
     !interpreters().is_empty()
 }

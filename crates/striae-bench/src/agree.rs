@@ -24,7 +24,7 @@ use striae_solve::{
 const ROUND_OFF: f64 = 1e-9;
 /// Displacements beyond which the LU is not asked.
 const MOST: usize = 100_000;
-/// Where the decks are if none are named.
+/// Folder of the decks if none are named.
 const FOLDER: &str = "cases";
 
 /// Runs decks, named or in folders, and makes each of their increments again.
@@ -44,10 +44,10 @@ pub fn all(places: &[String]) -> Result<Vec<Value>, Box<dyn Error>> {
     Ok(results?.into_iter().flatten().collect())
 }
 
-/// Whether all answers agree.
+/// Checks that all answers agree.
 ///
 /// # Errors
-/// When some do not.
+/// If some do not.
 pub fn verdict(results: &[Value]) -> Result<(), Box<dyn Error>> {
     let apart = results.iter().filter(|result| result["agrees"] == false);
     match apart.count() {
@@ -82,11 +82,11 @@ fn is_deck(path: &Path) -> bool {
     path.extension().is_some_and(|end| end == "toml") && !named("expected.toml") && !friction()
 }
 
-/// What came of a deck; nothing if it is too large.
+/// Comparison for one deck; `None` if it is too large.
 ///
-/// Answers are known up to the tolerance of Newton's method. Where they differ by more than
-/// round-off, both solvers make a further iteration in every increment: what is left
-/// then is a difference of the solvers.
+/// Answers are accurate to the tolerance of Newton's method. If they differ by more than round-off,
+/// both solvers make a further iteration in every increment: any difference left is one of the
+/// solvers.
 fn one(path: &Path) -> Result<Option<Value>, Box<dyn Error>> {
     let name = path.display().to_string();
     let mut model = deck::read(path)?.model;

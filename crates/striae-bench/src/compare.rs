@@ -226,7 +226,7 @@ fn difference(a: &Value, b: &Value) -> f64 {
     differences.fold(0.0, f64::max) / size
 }
 
-/// What the increments took.
+/// Times and counts of the increments.
 #[derive(Default)]
 struct Log {
     work: Vec<LinearWork>,

@@ -1,4 +1,4 @@
-//! How time and memory grow with the number of unknowns.
+//! Growth of time and memory with the number of unknowns.
 
 use crate::compare::{child, number};
 use serde_json::{Value, json};
@@ -7,10 +7,10 @@ use striae_figure::{Axis, Content, Figure, Marker, Panel, Series, Width, power_l
 
 const SIZES: [usize; 6] = [10_000, 20_000, 40_000, 80_000, 160_000, 300_000];
 
-/// How a quantity comes out of a run.
+/// Quantity as a function of a run.
 type Of = fn(&Value) -> f64;
 
-/// What is fitted: its name, its unit and how it comes out of a run.
+/// Fitted quantities: name, unit, and how each follows from a run.
 const QUANTITIES: [(&str, &str, Of); 3] = [
     ("iteration", "s", |run| number(run, "iteration_s")),
     ("iteration, processors", "s", |run| {

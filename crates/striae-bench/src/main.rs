@@ -21,7 +21,7 @@ mod yardstick;
 use serde_json::{Value, json};
 use std::{error::Error, process::ExitCode};
 
-/// What is asked for on the command line.
+/// Arguments of the command line.
 #[derive(Default)]
 struct Arguments {
     groups: Vec<String>,

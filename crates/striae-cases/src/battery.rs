@@ -18,7 +18,7 @@ pub struct Battery {
 pub struct Trial {
     group: String,
     name: String,
-    /// Whether it completed without a cut.
+    /// `true` if it completed without a cut.
     whole: bool,
     iterations: usize,
     mismatch: f64,
@@ -123,7 +123,7 @@ impl Trial {
     }
 }
 
-/// What some runs have in common.
+/// Statistics of a group of runs.
 struct Line<'a> {
     name: &'a str,
     runs: usize,

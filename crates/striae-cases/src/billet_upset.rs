@@ -185,7 +185,7 @@ impl Upset {
         self.mean_pressure() / slab(self.mu * radius / (HEIGHT * height))
     }
 
-    /// Where the nodes of a set are at the end.
+    /// Initial and final positions of the nodes of a set.
     fn places(&self, set: &str) -> Vec<(Vec3, Vec3)> {
         let (problem, state) = (&self.run.finished.problem, &self.run.finished.state);
         let nodes = problem.model.bodies[0].mesh.node_sets.get(set);
@@ -214,7 +214,7 @@ impl Upset {
         self.belly() / face - 1.0
     }
 
-    /// How far the middle is from round: range of its radii over the largest.
+    /// Deviation of the middle from roundness: range of its radii over the largest.
     fn roundness(&self) -> f64 {
         let least = self.radii(0.0).into_iter().fold(f64::INFINITY, f64::min);
         1.0 - least / self.belly()
@@ -250,7 +250,7 @@ struct Disc {
     slenderness: f64,
     /// Mean pressure over the yield stress.
     pressure: f64,
-    /// The same by the slab method.
+    /// Corresponding value of the slab method.
     known: f64,
 }
 

@@ -34,7 +34,7 @@ const KINDS: [(&str, &str); 2] = [
     ("hexahedra", r#"cells = "hexahedra""#),
     ("tetrahedra", r#"cells = "composite-tetrahedra""#),
 ];
-/// What a quick look does not give.
+/// Quantities that the quick run omits.
 const FULL_ONLY: [&str; 9] = [
     "limit",
     "hexahedra.4x4x2.error",

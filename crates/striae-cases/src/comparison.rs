@@ -34,7 +34,7 @@ const PARTS: usize = 8;
 /// Nominal tractions at a place of a surface and the area it stands for.
 #[derive(Clone, Copy, Debug)]
 pub struct Sample {
-    /// Where it was.
+    /// Position of the node.
     pub place: Vec3,
     /// Area at rest.
     pub area: f64,

@@ -1,8 +1,8 @@
 //! Friction and pressure of a contact face as one force each.
 //!
-//! Where everything slips in one direction `e`, friction is `tau = -mu p d` with
-//! `d` along `(I - n n) e`. The forces along and across a fixed direction do not obey
-//! the law, as the face tilts when it is sheared. Those along and across
+//! If everything slips in one direction `e`, friction is `tau = -mu p d` with `d` along `(I - n n)
+//! e`. The forces along and across a fixed direction do not obey the law, as the face tilts when it
+//! is sheared. Those along and across
 //!
 //! ```text
 //! n_m = N/|N|,   N = integral p n da;      P' = -F . n_m,   Q' = |F + P' n_m|

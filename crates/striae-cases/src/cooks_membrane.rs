@@ -10,7 +10,7 @@ use super::{
 use crate::failure::Failure;
 
 const DECKS: [(&str, &str); 3] = decks!("cooks-membrane": "plane-stress", "plane-strain", "rubber");
-/// Places on the free edge that are looked at, and published displacements of them.
+/// Places on the free edge at which displacements are compared, and their published displacements.
 const PUBLISHED: [(f64, f64); 3] = [(30.0, 23.96), (38.0, 32.27), (38.0, 7.77)];
 /// The decks have a thousandth of the published loads.
 const LOAD: f64 = 1e-3;
@@ -60,7 +60,7 @@ pub fn run(study: &mut Study) -> Result<(), Failure> {
     study.draw(&figure, "convergence")
 }
 
-/// What a quick look does not give.
+/// Quantities that the quick run omits.
 const FULL_ONLY: [&str; 6] = [
     "plane-stress.hexahedra.finest",
     "plane-stress.tetrahedra.finest",
@@ -84,7 +84,7 @@ fn judge(study: &mut Study, name: &str, published: f64, family: &[[f64; 2]]) {
     }
 }
 
-/// How far the nodes of the free edge at a height rise.
+/// Rise of the nodes of the free edge at a height.
 fn rise(run: &Run, height: f64) -> f64 {
     let (problem, state) = (&run.finished.problem, &run.finished.state);
     let nodes = problem.reference.iter().zip(&state.positions);

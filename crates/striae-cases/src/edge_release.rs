@@ -1,8 +1,8 @@
 //! `edge-release`: a punch that slides off the edge of a base, and one that is lifted
 //! and pressed again.
 //!
-//! The force while sliding off has to be continuous. Nodes come and go at the start of
-//! an increment, so a jump lies between two values. It is told from smooth change by
+//! The force while sliding off has to be continuous. Nodes come and go at the start of an
+//! increment, so a jump lies between two values. The jump is distinguished from smooth change by
 //! lines through the two values before and the two after it, taken to the middle:
 //!
 //! ```text
@@ -36,7 +36,7 @@ const FRICTION: [(&str, &str); 3] = [
 const SIZE: [f64; 2] = [0.62, 0.65];
 /// Last strip: overlap of the bodies as meshed over the smaller of the facets' edges.
 const STRIP: f64 = 0.1;
-/// How far the sliding punch passes the edge.
+/// Distance that the sliding punch passes the edge.
 const BEYOND: f64 = 0.02;
 
 /// The step that slides off.
@@ -50,7 +50,7 @@ struct Scene {
     divisions: [usize; 2],
     /// Young's modulus of the punch over that of the base.
     ratio: f64,
-    /// Which friction.
+    /// Number of the friction law.
     friction: usize,
     /// Direction of sliding from the x axis, degrees.
     angle: f64,
@@ -58,7 +58,7 @@ struct Scene {
     corner: [f64; 2],
 }
 
-/// What a run gave.
+/// Result of a run.
 struct Trial {
     name: String,
     friction: usize,
@@ -289,7 +289,7 @@ impl Scene {
         START + share * (way[0] - START)
     }
 
-    /// Distance along x and force over that pressed, at the increments asked for.
+    /// Distance along x and force relative to that after pressing, at the requested increments.
     fn curve(&self, run: &Run, way: [f64; 2]) -> Vec<[f64; 2]> {
         const INCREMENTS: f64 = 200.0;
         let pressed = run.at_end_of(2, NORMAL);
@@ -320,7 +320,7 @@ impl Scene {
     }
 }
 
-/// How far friction exceeds Coulomb's law at the end, over the largest limit.
+/// Excess of friction over Coulomb's law at the end, relative to the largest limit.
 fn excess(run: &Run) -> f64 {
     let pair = &run.finished.state.pairs[0];
     let nodes = Side::BOTH

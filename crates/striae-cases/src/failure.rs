@@ -1,11 +1,11 @@
-//! Why a case could not be computed.
+//! Errors of cases.
 
 use std::{io, path::PathBuf};
 
 use striae_figure::FigureError;
 use striae_solve::outcome::Ending;
 
-/// Why a case could not be computed.
+/// Reason why a case could not be computed.
 #[derive(Debug, thiserror::Error)]
 pub enum Failure {
     /// A run could not be made.
@@ -19,7 +19,7 @@ pub enum Failure {
     Unwritable {
         /// The file or folder.
         path: PathBuf,
-        /// What the operating system says.
+        /// Error of the operating system.
         cause: io::Error,
     },
     /// A figure cannot be drawn or written.

@@ -19,7 +19,7 @@ use crate::failure::Failure;
 const DECKS: [(&str, &str); 1] = decks!("finger-pad": "deck");
 /// Size of the elements in the deck and for a quick look.
 const SIZES: [&str; 2] = ["element_size = 1,", "element_size = 1.25,"];
-/// What the run without fibres leaves out.
+/// Part of the deck that the run without fibres omits.
 const FIBRES: &str = r#"fibres = [
     { k1 = 0.1, k2 = 10, dispersion = 0.1, direction = { circumferential = { point = [0, 0, 9], direction = [0, 1, 0] } } },
     { k1 = 0.1, k2 = 10, dispersion = 0.1, direction = { circumferential = { point = [0, 0, 9], direction = [1, 0, 0] } } },
@@ -115,8 +115,8 @@ impl Stroked {
         .collect()
     }
 
-    /// What friction dissipates over the last quarter of the strokes, over coefficient, force
-    /// and way.
+    /// Frictional dissipation over the last quarter of the strokes, divided by coefficient, force
+    /// and path.
     fn work(&self) -> f64 {
         let rows = self.loop_of_forces();
         let dissipated = self.run.column("energy.friction");
@@ -129,7 +129,8 @@ impl Stroked {
         spent / known.sum::<f64>()
     }
 
-    /// What holds the finger and the force of the fabric that do not cancel, over the latter.
+    /// Imbalance of the forces that hold the finger and the force of the fabric, relative to the
+    /// latter.
     fn balance(&self) -> f64 {
         let sum = ["x", "y", "z"].map(|axis| {
             self.run

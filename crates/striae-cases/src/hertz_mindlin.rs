@@ -1,14 +1,14 @@
 //! `hertz-mindlin`: a block with a spherical face on a rigid plane.
 //!
-//! Pressed without friction and then sheared with it, on a family of meshes.
-//! Pressure and friction are held against Mindlin's closed form, evaluated with
-//! the computed resultants `P` and `Q`, around the computed centre of pressure.
+//! Pressed without friction and then sheared with it, on a family of meshes. Pressure and friction
+//! are compared with Mindlin's closed form, evaluated with the computed resultants `P` and `Q`,
+//! around the computed centre of pressure.
 //!
-//! What the closed form leaves out is taken away part by part: a sphere of a
-//! hundred times the radius under a hundredth of the depth has a contact zone of
-//! the same size and a hundredth of the strains, and is pressed only, without
-//! friction; a block of twice the edges is nearer to a half space. Away from the
-//! edge of the contact zone, where the pressure is smooth, little else is left.
+//! Effects that the closed form neglects are removed one by one: a sphere of a hundred times the
+//! radius under a hundredth of the depth has a contact zone of equal size and a hundredth of the
+//! strains, and is only pressed, without friction; a block of twice the edges is closer to a half
+//! space. Away from the edge of the contact zone, where the pressure is smooth, little else is
+//! left.
 
 use striae_contact::side::Side;
 use striae_figure::{Axis, Color, Content, Figure, Line, Marker, Panel, Series, Width};
@@ -35,11 +35,11 @@ const TETRAHEDRAL_SIZES: [f64; 3] = [0.8, 0.56, 0.4];
 /// Meshes of about 3 000 and 13 000 unknowns that show what forces cost: name of the
 /// quantity, element size and half width of the fine part.
 const ECONOMICAL: [(&str, f64, f64); 2] = [("3k", 0.5, 1.4), ("13k", 0.25, 1.6)];
-/// Element size at which parts of the difference are told apart.
+/// Element size at which parts of the difference are separated.
 const PARTED: f64 = 0.2;
 /// Radius within which the pressure is smooth, over that of the contact zone.
 const INNER: f64 = 0.7;
-/// What a quick look does not give.
+/// Quantities that the quick run omits.
 const FULL_ONLY: [&str; 21] = [
     "force.error.0.4",
     "force.error.3k",
@@ -66,7 +66,7 @@ const FULL_ONLY: [&str; 21] = [
 const MU: f64 = 0.1;
 const RADIUS: f64 = 12.0;
 const SHALLOW_RADIUS: f64 = 1200.0;
-/// The same contact zone with a hundredth of the strains, pressed only.
+/// Deck with an equal contact zone and a hundredth of the strains, only pressed.
 const SHALLOW: [[&str; 2]; 4] = [
     ["radius = 12,", "radius = 1200,"],
     ["increments = 5", "increments = 10"],
@@ -85,7 +85,7 @@ const WIDE: [&str; 2] = [
     "size = [10, 10], height = 6.5",
     "size = [20, 20], height = 13",
 ];
-/// Cells of ten nodes in the place of hexahedra.
+/// Decks with ten-node tetrahedra instead of hexahedra.
 const TETRAHEDRA: [&str; 2] = [
     "radius = 1200,",
     r#"radius = 1200, cells = "composite-tetrahedra","#,
@@ -93,7 +93,7 @@ const TETRAHEDRA: [&str; 2] = [
 const LAMBDA: f64 = 0.657;
 const SHEAR_MODULUS: f64 = 0.164;
 
-/// What a mesh gives.
+/// Results on one mesh.
 struct Measured {
     size: f64,
     exact: PartialSlip,
@@ -242,7 +242,7 @@ fn pressure_error(run: &Run, radius: f64, within: f64) -> f64 {
     )
 }
 
-/// The same for the means around nodes beside those of Hertz's pressure.
+/// Error of the means around nodes, compared with those of Hertz's pressure.
 fn error_of_means(run: &Run, radius: f64) -> f64 {
     let middle = centre(&samples(run, Side::A)).x;
     let history = history(run);

@@ -1,9 +1,9 @@
 //! `hertz-mindlin-cylinders`: two half cylinders in plane strain, pressed and sheared.
 //!
-//! Half widths of the contact and stick zones are those of ellipses fitted to
-//! the pressure, and to what the friction falls short of `mu p` in the stick
-//! zone; the largest friction is `mu` times the fitted pressure at its edge.
-//! Errors are told apart into those around the edges of both zones and the rest.
+//! Half widths of the contact and stick zones are those of ellipses fitted to the pressure, and to
+//! what the friction falls short of `mu p` in the stick zone; the largest friction is `mu` times
+//! the fitted pressure at its edge. Errors are separated into those around the edges of both zones
+//! and the rest.
 
 use striae_contact::{side::Side, unknowns::Status};
 use striae_figure::{Axis, Color, Content, Figure, Marker, Panel, Series, Width};
@@ -34,7 +34,7 @@ const LOADS: [f64; 2] = [0.625, 0.05851];
 /// coarsest mesh; the contact zone is 1.4 wide.
 const NEAR: f64 = 0.1;
 
-/// What a mesh gives.
+/// Results on one mesh.
 struct Measured {
     size: f64,
     /// Place, pressure and friction of the nodes.
@@ -45,8 +45,8 @@ struct Measured {
     peak_friction: f64,
     /// Relative errors of pressure and friction.
     errors: [f64; 2],
-    /// The same without what lies near the edges of the contact zone and, for
-    /// friction, of the stick zone.
+    /// Relative errors away from the edges of the contact zone and, for friction, of the stick
+    /// zone.
     away: [f64; 2],
 }
 

@@ -1,9 +1,8 @@
 //! `hertz-mindlin-two-body`: a block with a spherical face on a deformable foundation.
 //!
-//! Shows friction and slip in the contact plane while partial slip turns into
-//! full slip, beside collocated rows. Two variants
-//! tell where friction across the motion comes from: one without friction while it
-//! is pressed, and one of the same contact zone with a hundredth of the strains.
+//! Shows friction and slip in the contact plane while partial slip turns into full slip, beside
+//! collocated rows. Two variants show the origin of friction across the motion: one without
+//! friction while it is pressed, and one of the same contact zone with a hundredth of the strains.
 
 use striae_contact::side::Side;
 use striae_figure::{Axis, Color, Content, Figure, Marker, Panel, Series, Width};
@@ -23,7 +22,7 @@ const WAYS: [f64; 3] = [0.0, 0.03, 0.15];
 const WEIGHTED: &str = r#"enforcement = "weighted""#;
 const COLLOCATED: &str = r#"enforcement = "collocated""#;
 const MU: f64 = 0.1;
-/// What the deck says of friction.
+/// Part of the deck that states friction.
 const FRICTION: &str = r#"friction = { law = "coulomb", mu = 0.1 }"#;
 /// The step that makes all slip.
 const SLIDE: &str = r#"[[step]]
@@ -48,7 +47,7 @@ const SHALLOW: [[&str; 2]; 4] = [
     ["x = 0.03 }", "x = 0.0003 }"],
     [SLIDE, ""],
 ];
-/// What a quick look does not give.
+/// Quantities that the quick run omits.
 const FULL_ONLY: [&str; 12] = [
     "h-0.4.pressed.friction",
     "h-0.4.lateral",

@@ -65,13 +65,13 @@ use study::Study;
 pub struct Case {
     /// Name, that of its folder.
     pub name: &'static str,
-    /// What it shows, in one line.
+    /// Subject, in one line.
     pub title: &'static str,
-    /// What it must give: its `expected.toml`.
+    /// Expected results: its `expected.toml`.
     pub expected: &'static str,
-    /// What a reader should know: its README.
+    /// Description for readers: its README.
     pub readme: &'static str,
-    /// What a quick look runs; `None` where it runs everything.
+    /// Description of the quick run; `None` if it runs everything.
     pub quick: Option<&'static str>,
     /// Runs the decks, measures quantities and draws figures.
     pub run: fn(&mut Study) -> Result<(), Failure>,

@@ -15,9 +15,9 @@ use super::study::Run;
 
 /// A node of a contact surface at the end of a run.
 pub struct MeasuredNode<'a> {
-    /// Where it was.
+    /// Position in the reference configuration.
     pub reference: Vec3,
-    /// Where it is.
+    /// Position in the current configuration.
     pub position: Vec3,
     /// Its tractions.
     pub result: &'a NodeResult,
@@ -28,7 +28,7 @@ pub fn surface_nodes(run: &Run, side: Side) -> Vec<MeasuredNode<'_>> {
     surface_nodes_in(run, &run.finished.state, side)
 }
 
-/// The same in another state of the run.
+/// Nodes of a side of the first pair in another state of the run.
 pub fn surface_nodes_in<'a>(run: &'a Run, state: &'a State, side: Side) -> Vec<MeasuredNode<'a>> {
     let problem = &run.finished.problem;
     let results = state.pairs[0].nodes[side].iter().enumerate();

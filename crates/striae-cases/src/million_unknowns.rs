@@ -7,7 +7,7 @@ const DECKS: [(&str, &str); 1] = decks!("million-unknowns": "deck");
 /// Elements along an edge of the lower block in the deck and for a quick look.
 const FULL: usize = 68;
 const QUICK: usize = 32;
-/// The same on meshes that are solved directly.
+/// Meshes that are solved directly.
 const COARSE: [usize; 3] = [8, 16, 24];
 const FORCES: [(&str, &str); 2] = [("normal", "z"), ("tangential", "x")];
 

@@ -115,7 +115,7 @@ fn displacement_error(run: &Run, s: f64) -> f64 {
     error / size
 }
 
-/// How the interface leaves stick.
+/// Departure of the interface from stick.
 struct Departure {
     /// Nodes that still stick in the first increment with slip.
     left_behind: f64,

@@ -35,7 +35,7 @@ const WAYS: [(&str, [f64; 2], f64); 3] = [
 const CONSTANTS: [f64; 3] = [0.1, 0.1, 0.5];
 /// Angles of the scales as seen from the block, in degrees.
 const SCALES: [f64; 2] = [0.0, 45.0];
-/// Forward ways at which the path is drawn; the decks go on to 1.
+/// Forward positions at which the path is drawn; the decks continue to 1.
 const STATIONS: [f64; 5] = [0.1, 0.2, 0.4, 0.6, 0.8];
 
 /// Runs the case.
@@ -128,7 +128,7 @@ fn path(run: &Run) -> Vec<[f64; 3]> {
         .collect()
 }
 
-/// When the block comes to rest, by its deceleration from a tenth to a twentieth of the
+/// Time at which the block comes to rest, by its deceleration from a tenth to a twentieth of the
 /// launching speed, one: the very end is lost in vibrations of the elastic block.
 fn stop(path: &[[f64; 3]]) -> f64 {
     let speeds: Vec<[f64; 2]> = path

@@ -1,4 +1,4 @@
-//! What a case works with: it runs decks and collects what they give.
+//! Environment of a case: runs decks and collects their results.
 
 use std::{
     fs,
@@ -14,7 +14,7 @@ use striae::{Finished, Simulation};
 
 use crate::failure::Failure;
 
-/// How much of a case is run.
+/// Part of a case that is run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extent {
     /// Everything.
@@ -41,19 +41,19 @@ impl Runner for Silent {
     }
 }
 
-/// A case under way.
+/// A case in progress.
 pub struct Study<'a> {
     /// Name of the case.
     pub case: &'a str,
-    /// How much is run.
+    /// Part that is run.
     pub extent: Extent,
     /// Enforcement of contact in every pair, where it is not that of the decks.
     pub enforcement: Option<Enforcement>,
-    /// Where everything is written.
+    /// Folder of all output.
     pub folder: PathBuf,
     /// Runs the simulations.
     pub runner: &'a dyn Runner,
-    /// What was measured.
+    /// Measured quantities.
     pub quantities: Vec<(String, f64)>,
     /// Quantities that are not measured in this extent.
     pub left_out: Vec<&'static str>,
@@ -86,7 +86,7 @@ impl<'a> Study<'a> {
         }
     }
 
-    /// Reads an embedded deck, and sets the enforcement of its pairs if one is asked for.
+    /// Reads an embedded deck, and sets the enforcement of its pairs if one is requested.
     pub fn deck(&self, name: &str, text: &str) -> Result<Deck, Failure> {
         let file = format!("cases/{}/{name}.toml", self.case);
         let mut deck = deck::parse(text, &file, Path::new("")).map_err(striae::Error::from)?;
@@ -142,7 +142,7 @@ impl<'a> Study<'a> {
         })
     }
 
-    /// Whether a run was stopped from outside.
+    /// Returns whether a run was stopped from outside.
     pub fn was_interrupted(&self) -> bool {
         self.interrupted
     }

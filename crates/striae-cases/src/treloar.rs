@@ -26,7 +26,7 @@ const MOONEY_RIVLIN: [f64; 2] = [0.1713, 0.0047];
 const YEOH: [f64; 3] = [0.1830, -0.001_418, 3.935e-5];
 /// Modulus, and links of a chain.
 const ARRUDA_BOYCE: [f64; 2] = [0.27, 26.5];
-/// What the series of Arruda and Boyce has before the powers of `I1`.
+/// Coefficients of the powers of `I1` in the series of Arruda and Boyce.
 const SERIES: [f64; 5] = [
     1.0 / 2.0,
     1.0 / 20.0,
@@ -194,7 +194,7 @@ impl Test {
         [sum(squares), sum(squares.map(f64::recip))]
     }
 
-    /// What `W1` and `W2` are multiplied by.
+    /// Factors of `W1` and `W2`.
     fn powers(&self, l: f64) -> [f64; 2] {
         let first = 2.0 * (l - l.powf(2.0 * self.across - 1.0));
         let second = match self.name {
@@ -226,7 +226,7 @@ fn closed(law: &str, test: &Test, l: f64) -> f64 {
     }
 }
 
-/// What the constants of Yeoh's law are multiplied by.
+/// Factors of the constants of Yeoh's law.
 fn of_yeoh(test: &Test, l: f64) -> [f64; 3] {
     let strain = test.invariants(l)[0] - 3.0;
     [1.0, 2.0 * strain, 3.0 * strain * strain].map(|slope| slope * test.powers(l)[0])

@@ -18,7 +18,7 @@ const DECKS: [(&str, &str); 4] = decks!("two-blocks": "deck", "collocated", "exc
 const NORMAL: &str = "pair.interface.resultant_b.z";
 const TANGENTIAL: &str = "pair.interface.resultant_a.x";
 const MU: f64 = 0.3;
-/// What a quick look does not give.
+/// Quantities that the quick run omits.
 const FULL_ONLY: [&str; 4] = [
     "refined.press.normal",
     "refined.slide.normal",

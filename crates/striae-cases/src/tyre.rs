@@ -1,4 +1,4 @@
-//! What the cases of the tyre share: meshes, measures and panels.
+//! Common parts of the cases of the tyre: meshes, measures and panels.
 
 use std::f64::consts::FRAC_1_SQRT_2;
 

@@ -14,7 +14,7 @@ pub const INTERRUPTED: u8 = 130;
 /// Exit code of a request that is not possible.
 pub const IMPOSSIBLE: u8 = 2;
 
-/// Why the program did not do what it was asked for.
+/// Reason why the program did not do what was requested.
 #[derive(Debug, thiserror::Error)]
 pub enum Failure {
     /// The deck is faulty.
@@ -24,21 +24,21 @@ pub enum Failure {
     #[error("{0}")]
     Model(Box<striae::Error>),
     /// A folder that would be written exists.
-    #[error("{} exists already; choose another name", .0.display())]
+    #[error("{} already exists; choose another name", .0.display())]
     Exists(PathBuf),
     /// A file or folder cannot be written.
     #[error("{} cannot be written: {cause}", path.display())]
     Unwritable {
         /// The file or folder.
         path: PathBuf,
-        /// What the operating system says.
+        /// Error of the operating system.
         cause: io::Error,
     },
     /// A run cannot be taken up again.
     #[error("{0}")]
     Checkpoint(#[from] CheckpointError),
-    /// A run was interrupted, and a checkpoint is there to go on from.
-    #[error("interrupted at time {time:.6}; `striae resume {}` goes on from there", folder.display())]
+    /// A run was interrupted, and a checkpoint is there to continue from.
+    #[error("interrupted at time {time:.6}; continue with `striae resume {}`", folder.display())]
     Interrupted {
         /// Time of the last converged state.
         time: f64,
@@ -63,16 +63,16 @@ pub enum Failure {
     /// A sweep that was interrupted.
     #[error("{0}")]
     Halted(String),
-    /// Numbers cannot vary as asked for.
+    /// Numbers cannot vary as requested.
     #[error("{0}")]
     Variation(String),
     /// Two runs differ.
     #[error("the runs differ: {0}")]
     Differ(String),
     /// There is no case of this name.
-    #[error("there is no case `{name}`; known are {known}")]
+    #[error("unknown case `{name}`; known cases are {known}")]
     UnknownCase {
-        /// What was asked for.
+        /// Requested name.
         name: String,
         /// All names.
         known: String,
@@ -105,11 +105,11 @@ pub enum Failure {
     )]
     #[error("{0}")]
     Petsc(String),
-    /// PETSc is asked for, but not built in.
+    /// PETSc is requested, but not built in.
     #[cfg(not(feature = "petsc"))]
     #[error("this program was built without PETSc; build it with `--features petsc`")]
     NoPetsc,
-    /// Another rank tells it.
+    /// Another rank reports it.
     #[cfg_attr(
         not(feature = "petsc"),
         allow(dead_code, reason = "only ranks fail so")
@@ -133,8 +133,8 @@ fn faulty(count: usize) -> String {
 
 fn warned(count: usize) -> String {
     match count {
-        1 => "1 warning, which `--strict` does not allow".into(),
-        count => format!("{count} warnings, which `--strict` does not allow"),
+        1 => "1 warning, which `--strict` forbids".into(),
+        count => format!("{count} warnings, which `--strict` forbids"),
     }
 }
 
@@ -164,12 +164,12 @@ impl From<striae_cases::Failure> for Failure {
 }
 
 impl Failure {
-    /// Whether another rank tells it.
+    /// Returns whether another rank reports it.
     pub fn is_told(&self) -> bool {
         matches!(self, Self::Told(_))
     }
 
-    /// Whether nobody reads what the program prints any more, as after `| head`.
+    /// Returns whether nobody reads the program's output any more, as after `| head`.
     pub fn is_broken_pipe(&self) -> bool {
         matches!(self, Self::Output(cause) if cause.kind() == io::ErrorKind::BrokenPipe)
     }

@@ -16,7 +16,7 @@ const WEIGHT: f64 = 0.2;
 pub struct Forecast {
     /// Increments of every step, if their size stays what it is at first.
     planned: Vec<f64>,
-    /// When the last increment ended, or the run began.
+    /// End of the last increment, or start of the run.
     then: Instant,
     /// Step and fraction where it ended.
     reached: Option<(usize, f64)>,

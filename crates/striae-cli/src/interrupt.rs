@@ -24,7 +24,7 @@ pub fn prepare() {
     }
 }
 
-/// Listens to interrupts: the first one stops the run under way, the second one ends
+/// Listens to interrupts: the first one stops the current run, the second one ends
 /// the program.
 pub fn listen() -> Interrupt {
     let interrupt = Interrupt::default();
@@ -48,11 +48,11 @@ fn stop(interrupt: &Interrupt) {
     if interrupt.set() == Before::Set {
         std::process::exit(i32::from(INTERRUPTED));
     }
-    let text = "stopping after this increment; interrupt again to stop at once";
+    let text = "stopping after this increment; interrupt again to stop immediately";
     let _ = writeln!(std::io::stderr(), "{text}");
 }
 
-/// That which batch systems send through `mpirun`.
+/// Signal that batch systems send through `mpirun`.
 #[cfg(unix)]
 fn user_signal() -> SigSet {
     let mut signals = SigSet::empty();

@@ -1,9 +1,8 @@
 //! The `striae` program.
 //!
-//! Exit codes: 0 when all went well, 1 when a run or a file operation failed,
-//! 2 when what was asked for is not possible (bad arguments, a faulty deck, or a
-//! checkpoint that cannot be used), 130 when a run was interrupted from the
-//! keyboard or by another signal that asks it to end.
+//! Exit codes: 0 if everything succeeded, 1 if a run or a file operation failed, 2 if the request
+//! is not possible (bad arguments, a faulty deck, or a checkpoint that cannot be used), 130 when a
+//! run was interrupted from the keyboard or by another signal that asks it to end.
 
 mod command;
 mod failure;

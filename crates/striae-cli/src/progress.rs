@@ -11,7 +11,7 @@ use striae_solve::{drive::Progress as Position, model::Model, norms::Norms, outc
 
 use crate::forecast::{Forecast, clock};
 
-/// How much is said.
+/// Verbosity of the output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verbosity {
     /// Nothing but errors.
@@ -22,7 +22,7 @@ pub enum Verbosity {
     Iterations,
 }
 
-/// Where progress is shown.
+/// Display of progress.
 pub struct Progress {
     verbosity: Verbosity,
     bar: Option<ProgressBar>,
@@ -102,12 +102,15 @@ impl Observer for Progress {
         } = *converged;
         let (name, _) = &self.steps[position.step];
         let [stick, slip, open] = self.counts;
+        let iterations = match increment.iterations.len() {
+            1 => "1 iteration".to_owned(),
+            count => format!("{count} iterations"),
+        };
         let text = format!(
-            "{name} {}/{}  t = {:.4}  {} iterations  stick {stick} slip {slip} open {open}  left {}",
+            "{name} {}/{}  t = {:.4}  {iterations}  stick {stick} slip {slip} open {open}  left {}",
             position.step + 1,
             self.steps.len(),
             position.time,
-            increment.iterations.len(),
             clock(self.forecast.left(position)),
         );
         if let Some(reason) = increment.work.fall_back

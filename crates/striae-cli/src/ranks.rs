@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use crate::failure::Failure;
 
-/// Whether a rank speaks.
+/// Voice of a rank: only the first one prints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Voice {
     /// The first rank, or one that is alone.
@@ -17,7 +17,7 @@ pub enum Voice {
     Silent,
 }
 
-/// Whether there are ranks.
+/// Number of ranks that could print.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Voices {
     /// None but this program.
@@ -27,7 +27,7 @@ pub enum Voices {
 }
 
 impl Crew {
-    /// Whether there are ranks.
+    /// Returns whether there are several ranks.
     pub fn voices(&self) -> Voices {
         match self.ranks() {
             None => Voices::Alone,
@@ -39,10 +39,10 @@ impl Crew {
 /// Options of runs on several ranks.
 #[derive(clap::Args)]
 pub struct Options {
-    /// Solve with PETSc also where there is one rank only; needs a build with the feature `petsc`.
+    /// Solve with PETSc even on a single rank; needs a build with the feature `petsc`.
     #[arg(long)]
     petsc: bool,
-    /// Options for PETSc, such as "-striae_ksp_monitor"; they come after those of the variable PETSC_OPTIONS.
+    /// Options for PETSc, such as "-striae_ksp_monitor"; they follow those of the variable PETSC_OPTIONS.
     #[arg(long, value_name = "OPTIONS", allow_hyphen_values = true)]
     petsc_options: Option<String>,
 }
@@ -65,12 +65,12 @@ mod together {
 
     use super::{Arc, Failure, Options, Voice};
 
-    /// How long a rank that failed waits for the others before it ends them.
+    /// Time that a rank that failed waits for the others before it ends them.
     const PATIENCE: Duration = Duration::from_secs(5);
-    /// Variables that tell a process that it is one of several.
+    /// Variables by which a process recognises that it is one of several.
     const STARTED: [&str; 3] = ["OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"];
 
-    /// The ranks, if there are several or PETSc is asked for.
+    /// The ranks, if there are several or PETSc is requested.
     #[derive(Clone, Debug)]
     pub struct Crew(Option<striae_petsc::Ranks>);
 
@@ -94,7 +94,7 @@ mod together {
     }
 
     impl Crew {
-        /// Starts MPI and PETSc where that is asked for.
+        /// Starts MPI and PETSc if requested.
         pub fn start(options: &Options) -> Result<Self, Failure> {
             let several = STARTED.iter().any(|name| env::var_os(name).is_some());
             if !several && !options.petsc && options.petsc_options.is_none() {
@@ -113,7 +113,7 @@ mod together {
             Some(Arc::new(Petsc(ranks)))
         }
 
-        /// Whether this rank speaks.
+        /// Returns whether this rank prints.
         pub fn voice(&self) -> Voice {
             match &self.0 {
                 Some(ranks) if ranks.rank() > 0 => Voice::Silent,
@@ -121,8 +121,8 @@ mod together {
             }
         }
 
-        /// Ends a command: a failure of all ranks is told by the first one. One that fails
-        /// alone says so and ends the others, which would wait for it.
+        /// Ends a command: the first rank reports a failure of all ranks. A rank that fails alone
+        /// reports it and ends the others, which would wait for it.
         pub fn ended(self, result: Result<(), Failure>) -> Result<(), Failure> {
             let (Err(failure), Some(ranks)) = (&result, &self.0) else {
                 return result;
@@ -167,7 +167,7 @@ mod alone {
             None
         }
 
-        /// It speaks.
+        /// The only rank prints.
         pub fn voice(&self) -> Voice {
             Voice::First
         }

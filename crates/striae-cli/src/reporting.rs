@@ -1,4 +1,4 @@
-//! A report that is written again and again while a run goes on.
+//! Report that is updated during a run.
 
 use std::{
     path::PathBuf,

@@ -17,7 +17,7 @@ pub struct Source {
 #[derive(clap::Args)]
 pub struct Settings {
     /// Set a parameter of the deck, such as `E=2e6`, or another number by its path, such as
-    /// `material.rubber.youngs_modulus=2e6`; may be given again.
+    /// `material.rubber.youngs_modulus=2e6`; may be repeated.
     #[arg(long = "set", value_name = "NAME=VALUE")]
     pub set: Vec<Setting>,
 }

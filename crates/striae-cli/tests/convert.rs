@@ -111,7 +111,7 @@ fn a_converted_model_of_two_instances_pushes_with_the_right_force() {
 
     let (code, _, errors) = said(folder, &["convert", "model.inp"]);
     assert_eq!(code, Some(2), "{errors}");
-    assert!(errors.contains("model.toml exists already"), "{errors}");
+    assert!(errors.contains("model.toml already exists"), "{errors}");
 }
 
 #[test]

@@ -78,7 +78,7 @@ fn faults_have_places_and_exit_code_2() {
     for (text, words) in [
         (
             "angle, friction\n0, much\n",
-            "m.csv:2:4: `much` is no finite number",
+            "m.csv:2:4: `much` is not a finite number",
         ),
         (
             "angle, friction\n0, .3\n",
@@ -114,7 +114,7 @@ fn files_of_testers_are_fitted_and_the_convention_is_said() {
     for words in [
         "mu_along = 0.4, mu_across = 0.2",
         "angle 0 is slip across the grooves (against a nap); if yours is along them, add `--angle-from along`",
-        "columns that are not used: `no`",
+        "unused columns: `no`",
     ] {
         assert!(told.contains(words), "{told}");
     }

@@ -79,7 +79,7 @@ fn a_file_is_shown_with_its_sets_and_numbers() {
         found[4..6],
         ["volume 2.125000e0", "edges from 1.000000e0 to 1.500000e0"]
     );
-    let start = "smallest scaled Jacobians, 1 at best, of elements 8 (";
+    let start = "smallest scaled Jacobians (at best 1), of elements 8 (";
     assert!(found[6].starts_with(start), "{}", found[6]);
     assert!(found[6].ends_with("7 (1.0000)"), "{}", found[6]);
     assert_eq!(

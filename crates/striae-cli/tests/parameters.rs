@@ -166,7 +166,7 @@ fn a_run_that_fails_is_a_row_with_its_reason() {
     assert!(stderr(&twice).contains("`mu` is set or varied twice"));
 }
 
-/// Ctrl-C stops all runs after their increment, and the table tells what is there.
+/// Ctrl-C stops all runs after their increment, and the table lists what is there.
 #[cfg(unix)]
 #[test]
 fn an_interrupted_sweep_keeps_what_is_there() {
@@ -207,7 +207,7 @@ fn an_interrupted_sweep_keeps_what_is_there() {
     assert!(!path.join("s/mu=0.3").exists());
 }
 
-/// A number that was set by its path is set again when a run goes on with other steps.
+/// A number that was set by its path is set again when a run continues with other steps.
 #[test]
 fn numbers_set_by_paths_go_on() {
     let place = place();
@@ -270,7 +270,7 @@ fn a_run_takes_settings_of_its_own_parameters_only() {
     assert!(!path.join("b").exists());
 }
 
-/// A fault that only meshes show is told by `run` as by `check`, and nothing is written.
+/// A fault that only meshes show is reported by `run` as by `check`, and nothing is written.
 #[test]
 fn run_refuses_what_check_refuses() {
     let place = place();
@@ -341,8 +341,8 @@ fn what_is_said_comes_as_json() {
     assert_eq!(faulty["faults"][0]["line"], 23);
 }
 
-/// A run that is killed before its first increment goes on from its start, with the parameters
-/// that were set, to the results of one that was not.
+/// A run that is killed before its first increment continues from its start, with the parameters
+/// that were set, to the results of an uninterrupted one.
 #[test]
 fn a_run_that_is_killed_at_once_resumes() {
     let place = place();

@@ -99,7 +99,7 @@ fn one_thing_must_be_asked_for() {
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
     }
     let output = striae(folder.path(), &["reproduce", "no-such-case"]);
-    assert!(stderr(&output).contains("there is no case `no-such-case`; known are two-blocks"));
+    assert!(stderr(&output).contains("unknown case `no-such-case`; known cases are two-blocks"));
     assert!(names(folder.path()).is_empty());
 }
 

@@ -89,7 +89,7 @@ fn interrupted(folder: &Path, arguments: &[&str], lines: usize) -> String {
     ended_by("-INT", folder, arguments, lines)
 }
 
-/// The same with any signal.
+/// Output of a run that was ended by a signal.
 fn ended_by(signal: &str, folder: &Path, arguments: &[&str], lines: usize) -> String {
     let mut command = program(folder, arguments);
     let mut child = command
@@ -116,7 +116,7 @@ fn stopped() -> tempfile::TempDir {
     fs::write(folder.path().join("cube.toml"), DECK).unwrap();
     let last = interrupted(folder.path(), &["run", "cube.toml"], 5);
     assert!(last.starts_with("interrupted at time"), "{last}");
-    let hint = "`striae resume results/cube` goes on from there";
+    let hint = "continue with `striae resume results/cube`";
     assert!(last.ends_with(hint), "{last}");
     folder
 }
@@ -285,9 +285,13 @@ fn what_cannot_be_gone_on_with_is_refused() {
         assert_eq!(said.trim_end().lines().count(), 1, "{said}");
     };
     let file = "results/cube/checkpoint.bin";
-    refused(file, b"", "checkpoint.bin is no checkpoint");
-    refused(file, history.as_bytes(), "checkpoint.bin is no checkpoint");
-    refused(file, &with(0, 1), "checkpoint.bin is no checkpoint");
+    refused(file, b"", "checkpoint.bin is not a checkpoint");
+    refused(
+        file,
+        history.as_bytes(),
+        "checkpoint.bin is not a checkpoint",
+    );
+    refused(file, &with(0, 1), "checkpoint.bin is not a checkpoint");
     let format = checkpoint[18];
     let other = format!("a checkpoint of format {}, not {format}", format ^ 64);
     refused(file, &with(18, 64), &other);

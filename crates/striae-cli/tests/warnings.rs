@@ -80,7 +80,7 @@ fn a_pair_that_never_meets_is_a_warning_and_strictly_exit_code_1() {
     assert_eq!(found[0].pair.as_deref(), Some("sole"));
     let strict = striae(folder.path(), &gap, &STRICT);
     assert_eq!(strict.status.code(), Some(1));
-    assert!(stderr(&strict).contains("1 warning, which `--strict` does not allow"));
+    assert!(stderr(&strict).contains("1 warning, which `--strict` forbids"));
 }
 
 #[test]
@@ -110,7 +110,7 @@ fn overlaps_and_normals_that_point_away_are_faults_with_a_remedy() {
     let folder = tempfile::tempdir().unwrap();
     for (text, remedy) in [
         (deck(-0.1, 0.1, 1), "initial = \"close\""),
-        (deck(0.1, 0.1, -1), "turn the normal of `floor` round"),
+        (deck(0.1, 0.1, -1), "reverse the normal of `floor`"),
     ] {
         let output = striae(folder.path(), &text, &RUN);
         assert_eq!(output.status.code(), Some(2));

@@ -1,20 +1,18 @@
-//! The default solver: condensed where that works and pays, iterative where direct
-//! factors would be too large, multifrontal LU otherwise.
+//! The default solver: condensed where that works and is cheaper, iterative where direct factors
+//! would be too large, multifrontal LU otherwise.
 //!
-//! Factors of the interior of the bodies are kept while they are good enough as
-//! a preconditioner: the contact system is factored anew, and GMRES makes up for
-//! the change of the bulk. They are renewed when that takes, or last took, more
-//! iterations than a factorisation is worth, by a count of operations. Being
-//! preconditioners, they are made in single precision: that takes half the time and
-//! half the memory. Where it is too coarse for a problem, they are made in double
-//! precision from then on.
+//! Factors of the interior of the bodies are kept while they are good enough as a preconditioner:
+//! the contact system is factored again, and GMRES compensates for the change of the bulk. They are
+//! renewed if that takes, or last took, more iterations than a factorisation costs, counted in
+//! operations. As they only precondition, they are stored in single precision, which halves time
+//! and memory. If that is too coarse for a problem, they are stored in double precision from then
+//! on.
 //!
-//! What it falls back on is decided by counts and signs alone, so the same
-//! matrices are always solved in the same way: when the interface is so large
-//! that its dense algebra costs more than the LU, when the interior is not
-//! positive definite, when the contact system is singular (the LU then names
-//! the unknown), or when refinement does not reach an accurate answer. The iterative
-//! solver leaves what it cannot solve to the condensed one, if that fits.
+//! Fall-backs depend on counts and signs alone, so equal matrices are always solved in one way: it
+//! falls back if the interface is so large that its dense algebra costs more than the LU, if the
+//! interior is not positive definite, if the contact system is singular (the LU then names the
+//! unknown), or if refinement does not reach an accurate solution. Systems that the iterative
+//! solver cannot solve are passed to the condensed one, if that fits into memory.
 //!
 //! Longer than other files, as all choices are in one place.
 
@@ -55,10 +53,10 @@ const LARGEST: usize = 12 << 30;
 /// Operations of a factorisation above which the iterative solver is taken.
 const COSTLY: f64 = 3.5e12;
 
-/// Reduction of the residual by a solution, unless another one is asked for.
+/// Reduction of the residual by a solution, unless another one is requested.
 pub const REDUCTION: f64 = 1e-6;
 
-/// Which solver is tried first.
+/// Solver that is tried first.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Choice {
     /// The one that costs least by a count of operations and memory.
@@ -80,17 +78,17 @@ pub struct Automatic {
     partition: Option<Partition>,
     condensed: Option<Condensed>,
     lu: Option<Box<dyn LinearSolver>>,
-    /// Why the iterative solver was chosen by cost.
+    /// Reason why the iterative solver was chosen by cost.
     reason: Option<FallBack>,
     /// Iterations of GMRES that older factors are worth.
     allowance: usize,
-    /// What earlier matrices have taught.
+    /// Experience from earlier matrices.
     experience: Experience,
-    /// What made the last factors.
+    /// Method that made the last factors.
     factored: Option<Made>,
 }
 
-/// What made factors.
+/// Method that made the factors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Made {
     /// The iterative solver.
@@ -237,7 +235,7 @@ impl Automatic {
         }
     }
 
-    /// Plans the condensed solver in the place of the iterative one, if there is memory for it.
+    /// Plans the condensed solver instead of the iterative one, if there is memory for it.
     fn plan_direct(&mut self) -> Result<(), SolveError> {
         let is_planned = self.condensed.is_some() || self.lu.is_some();
         if self.iterative.is_none() || is_planned {
@@ -257,14 +255,14 @@ impl Automatic {
     }
 }
 
-/// What it is called with.
+/// Public interface of the solver.
 impl Automatic {
-    /// Orders the unknowns and predicts the cost. Earlier factorisations are forgotten,
-    /// unless what contact couples more matters to an LU alone: where the condensed solver
-    /// is taken and no more supervariables are kept.
+    /// Orders the unknowns and predicts the cost. Earlier factorisations are forgotten, unless
+    /// additional couplings of contact only matter to an LU: if the condensed solver is used and no
+    /// more supervariables are kept.
     ///
     /// # Errors
-    /// Why the unknowns cannot be ordered.
+    /// Returns why the unknowns cannot be ordered.
     pub fn analyse(&mut self, partition: &Partition) -> Result<Analysis, SolveError> {
         if let Some(condensed) = self.unchanged(partition) {
             let analysis = condensed.analysis(self.precision());
@@ -340,8 +338,8 @@ impl Automatic {
         Ok(analysis)
     }
 
-    /// The condensed solver, if it was chosen without a look at contact and is that of another
-    /// partition, too.
+    /// The condensed solver, if it was chosen independently of contact and also is that of another
+    /// partition.
     fn unchanged(&self, partition: &Partition) -> Option<&Condensed> {
         let condensed = self.condensed.as_ref()?;
         let (contact, bodies) = condensed.work();
@@ -353,7 +351,7 @@ impl Automatic {
     /// Predicted costs of all methods it chooses between, in the order they are tried.
     ///
     /// # Errors
-    /// Why the unknowns cannot be ordered.
+    /// Returns why the unknowns cannot be ordered.
     pub fn estimates(&self, partition: &Partition) -> Result<Vec<Analysis>, SolveError> {
         if matches!(self.choice, Choice::Multifrontal | Choice::Faer) {
             return Ok(Vec::new());
@@ -387,12 +385,12 @@ impl Automatic {
         }
     }
 
-    /// What earlier matrices have taught.
+    /// Experience from earlier matrices.
     pub fn experience(&self) -> &Experience {
         &self.experience
     }
 
-    /// What the factors there are were made of.
+    /// Interior that the present factors were made of.
     pub fn factored_interior(&self) -> Option<FactoredInterior> {
         self.condensed.as_ref().and_then(Condensed::factored)
     }
@@ -411,7 +409,7 @@ impl Automatic {
     /// Factors a matrix of the analysed partition.
     ///
     /// # Errors
-    /// Why no method can.
+    /// Returns why no method can.
     pub fn factor(&mut self, tangent: &Tangent) -> Result<Factored, SolveError> {
         self.factored = None;
         let good = self.allowance >= FEWEST && 4 * self.experience.taken <= 3 * self.allowance;
@@ -432,7 +430,7 @@ impl Automatic {
     /// `tangent`. The old content of `x` is not used.
     ///
     /// # Errors
-    /// Why there is no accurate answer.
+    /// Returns why there is no accurate solution.
     pub fn solve(
         &mut self,
         tangent: &Tangent,
@@ -447,7 +445,7 @@ impl Automatic {
     /// [stale](Age::Stale) or the solver is iterative.
     ///
     /// # Errors
-    /// Why there is no accurate answer.
+    /// Returns why there is no accurate solution.
     pub fn solve_to(
         &mut self,
         tangent: &Tangent,
@@ -479,7 +477,7 @@ impl Automatic {
         }
     }
 
-    /// Whether [`solve_other_contact`](Self::solve_other_contact) is worth a call now.
+    /// Returns whether calling [`solve_other_contact`](Self::solve_other_contact) pays now.
     pub fn has_interior(&self) -> bool {
         let condensed = self.condensed.as_ref();
         matches!(self.factored, Some(Made::Condensed(_)))
@@ -493,7 +491,7 @@ impl Automatic {
     /// `None` where there are no such factors after all.
     ///
     /// # Errors
-    /// Why the contact system cannot be solved.
+    /// Returns why the contact system cannot be solved.
     pub fn solve_other_contact(
         &mut self,
         tangent: &Tangent,

@@ -9,7 +9,7 @@ use striae_sparse::{
 /// A connected part of the bulk and the factors of its interior.
 #[derive(Debug)]
 pub(crate) struct Body {
-    /// What was factored last: the body's part of the scaled matrix, but for entries
+    /// Matrix that was factored last: the body's part of the scaled matrix, without the entries
     /// between kept unknowns, which are left to the interface.
     own: SparseMatrix,
     /// Global supervariable of each of its own.
@@ -87,7 +87,7 @@ impl Body {
         self.factor_own(precision)
     }
 
-    /// What was factored last.
+    /// Values of the matrix that was factored last.
     pub(crate) fn values(&self) -> &[f64] {
         self.own.values()
     }

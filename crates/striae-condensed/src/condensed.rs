@@ -1,13 +1,12 @@
 //! The condensed solver: bodies by Cholesky, contact by dense algebra.
 //!
-//! Where the bulk is symmetric and positive definite, its interior is
-//! eliminated body by body at the price of a Cholesky factorisation
-//! ([`SchurCholesky`](striae_sparse::SchurCholesky)); the contact system on what was
-//! kept is solved exactly ([`Interface`](crate::interface::Interface)). Rows with
-//! nothing but a diagonal (prescribed unknowns and tractions) are solved for first, and
-//! what contact does not touch for now is eliminated with its body ([`Untouched`]). A
-//! bulk that is not quite symmetric is taken as symmetric, and refinement makes up for
-//! it; one that is not definite is refused.
+//! If the bulk is symmetric and positive definite, its interior is eliminated body by body at the
+//! price of a Cholesky factorisation ([`SchurCholesky`](striae_sparse::SchurCholesky)); the contact
+//! system on what was kept is solved exactly ([`Interface`](crate::interface::Interface)). Rows
+//! with nothing but a diagonal (prescribed unknowns and tractions) are solved for first, and what
+//! contact does not touch for now is eliminated with its body ([`Untouched`]). A bulk that is not
+//! quite symmetric is taken as symmetric, and refinement makes up for it; one that is not definite
+//! is refused.
 
 mod contact;
 mod substitution;
@@ -136,7 +135,7 @@ impl Condensed {
         self.factor_contact(rows, scaling, (prescribed, precision), nothing)
     }
 
-    /// Eliminates what contact does not touch anew with the next matrix.
+    /// Makes the next matrix eliminate again what contact does not touch.
     pub(crate) fn forget_untouched(&mut self) {
         if let Some(numeric) = &mut self.numeric {
             numeric.contact = ContactSystem::default();
@@ -148,7 +147,7 @@ impl Condensed {
         self.numeric = None;
     }
 
-    /// What the factors there are were made of.
+    /// Interior that the present factors were made of.
     pub(crate) fn factored(&self) -> Option<FactoredInterior> {
         let numeric = self.numeric.as_ref()?;
         let values = self.bodies.iter().map(|body| body.values().to_vec());
@@ -277,8 +276,9 @@ impl Condensed {
     /// Work of factoring what contact leaves free, and of eliminating what it does not
     /// touch, over that of factoring the interior.
     ///
-    /// It tells contact that holds most of what it touches, or that bodies outweigh, from
-    /// contact of whole faces of two bodies, whichever way the contact system is solved.
+    /// The ratio distinguishes contact that holds most of what it touches, or that bodies
+    /// outweigh, from contact of whole faces of two bodies, whichever way the contact system is
+    /// solved.
     pub(crate) fn share_of_contact(&self) -> f64 {
         let work = |contact: &ContactSystem| {
             let eliminated = contact.untouched.iter().flatten();

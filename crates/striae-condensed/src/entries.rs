@@ -16,12 +16,12 @@ pub(crate) struct Kept {
     pub(crate) unknowns: Vec<u32>,
     /// Place of every unknown among them.
     places: Vec<u32>,
-    /// Whether each of them is a multiplier.
+    /// `true` for each unknown that is a multiplier.
     pub(crate) is_multiplier: Vec<bool>,
 }
 
 impl Kept {
-    /// Those of a partition.
+    /// Kept unknowns of a partition.
     pub(crate) fn of(partition: &Partition) -> Self {
         let kept = partition.kept().map(|Supervariable(i)| i);
         let (mut unknowns, mut is_multiplier) = (Vec::new(), Vec::new());

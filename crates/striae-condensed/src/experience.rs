@@ -1,4 +1,4 @@
-//! What earlier matrices have taught.
+//! Experience from earlier matrices, for the choice of a solver.
 
 use crate::report::FallBack;
 use serde::{Deserialize, Serialize};
@@ -6,15 +6,15 @@ use serde::{Deserialize, Serialize};
 /// Factorisations by other solvers after a failure before one is tried again.
 const PATIENCE: usize = 8;
 
-/// What earlier matrices have taught the choice of a solver. What is written with it bears on
-/// the last digits of answers to come.
+/// Experience from earlier matrices, for the choice of a solver. The choice affects the last digits
+/// of later solutions.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Experience {
-    /// Whether single precision has been found too coarse.
+    /// `true` if single precision has been found too coarse.
     pub too_coarse: bool,
     /// Iterations of GMRES that the factors took last.
     pub taken: usize,
-    /// Why the last failure, or the analysis, led to another solver.
+    /// Reason why the last failure, or the analysis, led to another solver.
     #[serde(skip)]
     pub(crate) fall_back: Option<FallBack>,
     /// Factorisations by LU before the condensed solver is tried again.
@@ -26,7 +26,7 @@ pub struct Experience {
 }
 
 impl Experience {
-    /// What of it holds for matrices of another pattern.
+    /// Part of the experience that holds for matrices of another pattern.
     pub fn of_other_pattern(&self) -> Self {
         Self {
             too_coarse: self.too_coarse,
@@ -44,7 +44,7 @@ impl Experience {
         (self.fall_back, self.rest) = (Some(reason), PATIENCE);
     }
 
-    /// What has failed has another try.
+    /// Forgets failures, so that the methods that failed are tried again.
     pub(crate) fn forgive(&mut self) {
         (self.patience, self.rest) = (0, 0);
     }
@@ -57,8 +57,8 @@ pub struct FactoredInterior {
     pub values: Vec<Vec<f64>>,
     /// Scale of every unknown.
     pub scales: Vec<f64>,
-    /// Which unknowns are prescribed.
+    /// Unknowns that are prescribed.
     pub prescribed: Vec<bool>,
-    /// Whether the factors are in single precision.
+    /// `true` if the factors are in single precision.
     pub single: bool,
 }

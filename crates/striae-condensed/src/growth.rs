@@ -1,4 +1,4 @@
-//! What a pattern has grown by, beyond what elements couple.
+//! Growth of a pattern beyond the couplings of elements.
 
 use serde::{Deserialize, Serialize};
 use striae_sparse::Supervariable;
@@ -10,7 +10,7 @@ use striae_sparse::Supervariable;
 pub struct Growth(Vec<Vec<Supervariable>>);
 
 impl Growth {
-    /// Whether there is nothing.
+    /// Returns whether there are no cliques.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }

@@ -54,7 +54,7 @@ pub(crate) struct Interface {
     rest: Dense,
 }
 
-/// What is left for dense algebra.
+/// Dense part that is left after sparse elimination.
 #[derive(Debug, Default)]
 struct Dense {
     /// Dense rows, as numbered in `assembled`.

@@ -16,10 +16,10 @@
 //! y = A^-1 r_x,   m = S^-1 (r_m - G_x y),   x = A^-1 (r_x - C m)
 //! ```
 //!
-//! With exact inverses GMRES would end after two steps, as the stiffening only acts on
-//! what violates a constraint. Rows with nothing but a diagonal (prescribed unknowns)
-//! are solved for first. The contact equations are met as all others: the residual is
-//! that of the true system. All is made anew for every matrix.
+//! With exact inverses GMRES would end after two steps, as the stiffening only acts on what
+//! violates a constraint. Rows with nothing but a diagonal (prescribed unknowns) are solved for
+//! first. The contact equations are met as all others: the residual is that of the true system.
+//! Everything is rebuilt for every matrix.
 
 mod constraints;
 mod contact;
@@ -243,7 +243,7 @@ impl Iterative {
 }
 
 impl Nodes {
-    /// Those of a partition, in no part yet; `None` where the bulk does not have three
+    /// Nodes of a partition, assigned to no part yet; `None` if the bulk does not have three
     /// unknowns a node.
     fn new(partition: &Partition) -> Option<Self> {
         let mut nodes = Self {

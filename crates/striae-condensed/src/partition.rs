@@ -1,11 +1,10 @@
-//! What belongs to the bodies in a structure, and what to their interface.
+//! Division of a structure into bodies and their interface.
 //!
-//! The *bulk* is what elements couple: of every supervariable the leading unknowns,
-//! and the edges between them. Ties may couple more ([`Partition::tied`]), and so may
-//! contact ([`Partition::grown`]): their supervariables are the *interface*, and they are
-//! *kept* when the rest of the bulk is condensed, as are those with other unknowns
-//! (multipliers). Bodies and ties share a pattern; contact has a part of the
-//! [`Tangent`](crate::Tangent) of its own.
+//! The *bulk* consists of the couplings of elements: the leading unknowns of every supervariable
+//! and the edges between them. Ties may couple more ([`Partition::tied`]), and so may contact
+//! ([`Partition::grown`]): their supervariables are the *interface*, and they are *kept* when the
+//! rest of the bulk is condensed, as are those with other unknowns (multipliers). Bodies and ties
+//! share a pattern; contact has a part of the [`Tangent`](crate::Tangent) of its own.
 
 use crate::{growth::Growth, tangent::Tangent};
 use std::{ops::Deref, ops::Range, sync::Arc};
@@ -17,7 +16,7 @@ use thiserror::Error;
 pub struct Partition {
     /// Pattern of the bodies.
     structure: Structure,
-    /// The same with what contact couples.
+    /// Structure including the couplings of contact.
     whole: Structure,
     parts: Arc<Parts>,
 }
@@ -26,9 +25,9 @@ pub struct Partition {
 struct Parts {
     /// Leading unknowns of each supervariable that belong to the bulk.
     bulk: Vec<u32>,
-    /// Whether each edge belongs to the bulk.
+    /// `true` for each edge that belongs to the bulk.
     bulk_edges: Vec<bool>,
-    /// Whether each supervariable belongs to the interface.
+    /// `true` for each supervariable that belongs to the interface.
     kept: Vec<bool>,
     /// Point of each supervariable, if they are known.
     points: Option<Arc<[[f64; 3]]>>,
@@ -105,12 +104,12 @@ impl Partition {
         Ok(partition)
     }
 
-    /// The same with a point for every supervariable: where a translation or rotation of
-    /// the bulk as a whole moves it (its three unknowns are components along the axes).
-    /// The iterative solver goes by these.
+    /// Copy with a point for every supervariable, at which rigid translations and rotations of the
+    /// bulk are evaluated (its three unknowns are components along the axes). The iterative solver
+    /// needs these.
     ///
     /// # Errors
-    /// When there is not one point a supervariable.
+    /// If there is not exactly one point per supervariable.
     pub fn with_points(mut self, points: Vec<[f64; 3]>) -> Result<Self, PartitionError> {
         let expected = self.supervariables();
         if points.len() != expected {
@@ -123,11 +122,11 @@ impl Partition {
         Ok(self)
     }
 
-    /// The same with cliques that ties couple: they join the pattern of the bodies, not the
-    /// bulk, and their supervariables are kept.
+    /// Copy with cliques coupled by ties: these join the pattern of the bodies, not the bulk, and
+    /// their supervariables are kept.
     ///
     /// # Errors
-    /// When a clique names a supervariable that does not exist.
+    /// If a clique names a supervariable that does not exist.
     pub fn tied(&self, ties: &Growth) -> Result<Self, StructureError> {
         let structure = self.structure.grown(ties.cliques())?;
         let mut parts = (*self.parts).clone();
@@ -146,10 +145,10 @@ impl Partition {
         })
     }
 
-    /// The same with cliques that contact couples, whose supervariables are kept.
+    /// Copy with cliques coupled by contact, whose supervariables are kept.
     ///
     /// # Errors
-    /// When a clique names a supervariable that does not exist.
+    /// If a clique names a supervariable that does not exist.
     pub fn grown(&self, growth: &Growth) -> Result<Self, StructureError> {
         let mut parts = (*self.parts).clone();
         let whole = self.whole.grown(growth.cliques())?;
@@ -200,12 +199,12 @@ impl Partition {
         &self.structure
     }
 
-    /// The same with what contact couples.
+    /// Structure including the couplings of contact.
     pub fn whole(&self) -> &Structure {
         &self.whole
     }
 
-    /// Whether a supervariable belongs to the interface.
+    /// Returns whether a supervariable belongs to the interface.
     pub fn is_kept(&self, supervariable: Supervariable) -> bool {
         self.parts.kept[supervariable.0]
     }
@@ -216,19 +215,19 @@ impl Partition {
         all.filter(|&supervariable| self.is_kept(supervariable))
     }
 
-    /// The same with all supervariables kept.
+    /// Copy with all supervariables kept.
     pub(crate) fn with_all_kept(mut self) -> Self {
         Arc::make_mut(&mut self.parts).kept.fill(true);
         self
     }
 
-    /// Whether a matrix is on this pattern.
+    /// Returns whether a matrix has this pattern.
     pub(crate) fn fits(&self, tangent: &Tangent) -> bool {
         self.structure.same_as(tangent.bodies.structure())
             && tangent.contact.unknowns() == self.unknowns()
     }
 
-    /// Whether bodies and what is kept are those of another partition.
+    /// Returns whether bodies and kept unknowns are those of another partition.
     pub(crate) fn condenses_like(&self, other: &Self) -> bool {
         self.structure.same_as(&other.structure) && self.parts == other.parts
     }
@@ -244,7 +243,7 @@ impl Partition {
         self.bulk_group(i).end..self.group(i).end
     }
 
-    /// Whether an edge belongs to the bulk.
+    /// Returns whether an edge belongs to the bulk.
     pub fn is_bulk_edge(&self, edge: usize) -> bool {
         self.parts.bulk_edges[edge]
     }

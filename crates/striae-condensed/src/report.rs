@@ -1,4 +1,4 @@
-//! What a solver of the program's systems predicts, and what it tells of its work.
+//! Predictions of a solver of the program's systems, and reports of its work.
 
 use striae_sparse::{Cost, FactorReport};
 use thiserror::Error;
@@ -8,25 +8,25 @@ use thiserror::Error;
 pub struct Analysis {
     /// The cost.
     pub cost: Cost,
-    /// How matrices will be factored, if nothing forbids it.
+    /// Method by which matrices will be factored, unless something forbids it.
     pub method: Method,
 }
 
-/// What a factorisation came to.
+/// Result of a factorisation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Factored {
     /// Entries of the factors.
     pub factor_entries: usize,
     /// Order of the dense contact system of the condensed solver.
     pub dense_order: usize,
-    /// How the matrix was factored.
+    /// Method by which the matrix was factored.
     pub method: Method,
-    /// Why the solver that was asked for was not used.
+    /// Reason why the requested solver was not used.
     pub fall_back: Option<FallBack>,
 }
 
 impl Factored {
-    /// By a solver that knows no contact.
+    /// Report by a solver without contact.
     pub(crate) fn by(method: Method, report: FactorReport) -> Self {
         Self {
             factor_entries: report.factor_entries,
@@ -63,7 +63,7 @@ impl std::fmt::Display for Method {
     }
 }
 
-/// Why another solver was used in the place of the one that was asked for.
+/// Reason why another solver was used instead of the requested one.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum FallBack {
     /// Dense algebra on the interface would cost more.

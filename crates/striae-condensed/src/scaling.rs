@@ -4,7 +4,7 @@ use crate::{entries::Kept, partition::Partition, tangent::Tangent};
 use rayon::prelude::*;
 use striae_sparse::{Equilibration, SolveError, check_finite, root, sparse_elimination::Row};
 
-/// Rows that a thread looks at at a time.
+/// Number of rows that a thread processes at a time.
 const ROWS: usize = 512;
 
 /// Factors from the diagonal of the bulk, for the condensed solver; `rows` are the entries
@@ -30,7 +30,7 @@ pub(crate) fn by_diagonal(
     Ok(with_multipliers(partition, bulk, (kept, rows)))
 }
 
-/// The same for the factors of bulk unknowns that there are.
+/// Scaling that reuses the existing factors of bulk unknowns.
 pub(crate) fn with_multipliers(
     partition: &Partition,
     bulk: Vec<f64>,

@@ -10,12 +10,12 @@ use striae_sparse::{SolveError, SolveReport};
 
 use crate::{Analysis, Factored, Partition, Tangent};
 
-/// Which unknowns of the whole system those of a part are.
+/// Numbers in the whole system of the unknowns of a part.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Numbering {
     /// Unknowns of the whole system.
     pub count: usize,
-    /// Those that are this rank's own, one range after the other by rank.
+    /// Unknowns owned by this rank; the ranges of all ranks follow one another.
     pub own: Range<usize>,
     /// Number in the whole system of every unknown of the part.
     pub whole: Vec<usize>,

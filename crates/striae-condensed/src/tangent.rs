@@ -7,11 +7,11 @@ use striae_sparse::{CompressedRows, LinearOperator, RowSums, SparseMatrix, Struc
 /// Supervariables whose rows a thread puts together at a time.
 const OWNERS: usize = 64;
 
-/// What the bodies are, and what contact adds between supervariables that are kept.
+/// Tangent of the bodies, and the terms that contact adds between kept supervariables.
 ///
-/// A method that looks at the bodies alone, as the condensed solver does for their
-/// interiors, need not tell the two apart in one matrix; contact is renewed while the
-/// bodies stay. A [`SparseMatrix`] is a tangent without contact.
+/// A method that treats the bodies alone, as the condensed solver does for their interiors, need
+/// not separate the two in one matrix; contact is renewed while the bodies stay. A [`SparseMatrix`]
+/// is a tangent without contact.
 #[derive(Clone, Debug)]
 pub struct Tangent {
     /// Elements, masses, ties and what is held, on the [pattern of the

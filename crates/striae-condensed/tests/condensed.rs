@@ -7,7 +7,7 @@ mod parts;
 use striae_condensed::{Automatic, Choice, FallBack, Growth, Method, Partition, Tangent};
 use striae_sparse::{Age, SolveError, SparseMatrix, Structure, Supervariable};
 
-/// What the lower block's face does on the upper one's.
+/// Effect of the lower block's face on the upper one's.
 #[derive(Clone, Copy, PartialEq)]
 enum Contact {
     Stick,

@@ -8,7 +8,7 @@ use striae_sparse::{SolveReport, SparseMatrix, Structure, Supervariable};
 #[path = "../../striae-sparse/tests/elastic/mod.rs"]
 mod elastic;
 
-/// What the lower block's face does on the upper one's.
+/// Effect of the lower block's face on the upper one's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Contact {
     Stick,
@@ -18,7 +18,7 @@ enum Contact {
     Open,
 }
 
-/// How the upper block is held.
+/// Support of the upper block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Top {
     Held,

@@ -1,4 +1,4 @@
-//! Where the values of transient nodes come from in the end.
+//! Origin of the values of transient nodes.
 //!
 //! ```text
 //! Z_t = sum_j M_tj Z_j,   Z_k = e_k,   M >= 0,   M 1 = 1
@@ -18,13 +18,13 @@ use crate::common_mass::{SparseRow, SparseSum};
 /// Entries below it are dropped.
 const NOTHING: f64 = 1e-14;
 
-/// What a node is to the chain.
+/// Role of a node in the absorbing Markov chain.
 pub(crate) enum State {
-    /// It takes values of others.
+    /// The node takes values of others.
     Transient(SparseRow),
-    /// It has a value of its own.
+    /// The node has its own value.
     Absorbing,
-    /// It takes no part.
+    /// The node takes no part.
     Outside,
 }
 

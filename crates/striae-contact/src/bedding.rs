@@ -22,6 +22,8 @@ pub const C_CLOSED: f64 = 0.1;
 /// `r_k` of a node with the flexibility `l_k`, `closed = 1 - o_k`; zero where nothing yields.
 pub fn bedding(flexibility: f64, closed: f64) -> f64 {
     match flexibility > 0.0 {
+        // Where the support is closed the multiplier acts, and a stiff bedding would only penalise
+        // the gaps that non-matching meshes leave.
         true => (C_OPEN + (C_CLOSED - C_OPEN) * closed) / flexibility,
         false => 0.0,
     }

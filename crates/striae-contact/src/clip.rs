@@ -56,6 +56,7 @@ impl<D: Real> FlatFacet<D> {
     /// Triangles that make up what the convex polygon `cover` of three or four
     /// corners, facing the facet, covers.
     pub fn covered(&self, cover: &[Vector3<D>]) -> Vec<[Vector2<D>; 3]> {
+        // The covering polygon faces this facet, so its corners go round the other way.
         let window = cover.iter().rev();
         let window: Vec<_> = window.map(|x| flat(x, &self.origin, &self.axes)).collect();
         let count = match self.shape {
@@ -112,10 +113,9 @@ const FLAT: f64 = 1e-3;
 
 /// Triangles of a convex polygon: a fan, after flat corners have been cut off.
 ///
-/// Where a side of the facet all but runs along an edge of the window, their
-/// crossing is a flat corner that moves along them without bound. Cut off alone,
-/// its triangle vanishes as fast as it moves; as the end of a diagonal it would
-/// multiply the error of quadrature by its speed.
+/// If a side of the facet nearly runs along an edge of the window, their crossing is a flat corner
+/// that moves along them without bound. Cut off alone, its triangle vanishes as fast as it moves;
+/// as the end of a diagonal it would multiply the error of quadrature by its speed.
 fn triangles<D: Real>(mut polygon: Vec<Vector2<D>>) -> Vec<[Vector2<D>; 3]> {
     let mut triangles = Vec::with_capacity(polygon.len());
     let mut at = 0;
@@ -173,6 +173,8 @@ fn clipped<D: Real>(subject: &[Vector2<D>], window: &[Vector2<D>]) -> Vec<Vector
                 inside.push(*point);
             }
             let crosses = (d >= 0.0) != (d_next >= 0.0);
+            // A side that runs along the edge crosses it nowhere in particular; the quotient below
+            // would be round-off.
             if crosses && (d - d_next).abs() > along {
                 let (d, d_next) = (signed(point), signed(next));
                 let share = d / (d - d_next);
@@ -197,6 +199,8 @@ fn coordinates<D: Real>(
         residual += corners[corner] * D::from(weights[corner]);
     }
     Some([0, 1].map(|row| {
+        // One Newton step in dual numbers at the converged real place adds the derivatives of the
+        // implicit function.
         let change = residual.x * inverse[(row, 0)] + residual.y * inverse[(row, 1)];
         -change + [xi, eta][row]
     }))
@@ -221,6 +225,7 @@ pub(crate) fn located(
         let step = jacobian.try_inverse()? * residual;
         xi -= step.x;
         eta -= step.y;
+        // Quadratic convergence: a step of this size leaves an error below round-off.
         if step.amax() < 1e-14 {
             break;
         }

@@ -32,10 +32,10 @@ use crate::{
     transported::Transported,
 };
 
-/// What the common field depends on.
+/// Quantities that the common field depends on.
 #[derive(Clone, Copy)]
 pub struct CommonField<'a> {
-    /// Where everything is.
+    /// Configuration of the pair.
     pub configuration: &'a Configuration<'a>,
     /// Roles.
     pub selection: &'a Selection,

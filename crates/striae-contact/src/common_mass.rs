@@ -5,11 +5,10 @@
 //! D_kJ = integral N_k N_J over all common polygons,   w_k = integral N_k
 //! ```
 //!
-//! Sums of floating-point numbers depend on their order, and so would choices made
-//! from them. Nodes are therefore ordered by position first; of two sides with nodes
-//! at the same places that one goes first whose sorted nodes come first. Only
-//! surfaces that are alike to the last bit are told apart by their label, and then
-//! nothing but the label differs.
+//! Sums of floating-point numbers depend on their order, and so would choices made from them. Nodes
+//! are therefore ordered by position first; of two sides with nodes at the same places, the one
+//! whose sorted nodes come first goes first. Only surfaces that are equal to the last bit are
+//! distinguished by their label, and then nothing but the label differs.
 
 use std::cmp::Ordering;
 
@@ -35,13 +34,13 @@ pub(crate) struct CommonMass {
     pub index: [Vec<Option<u32>>; 2],
     /// `D_kJ`.
     pub rows: Vec<SparseRow>,
-    /// The same over whole facets, against a rigid surface only.
+    /// Rows integrated over whole facets, against a rigid surface only.
     pub whole: Vec<SparseRow>,
     /// `w_k`.
     pub weights: Vec<f64>,
-    /// Whether a node has weight: it is a candidate.
+    /// `true` for nodes with nonzero weight, which are candidates.
     pub weighted: Vec<bool>,
-    /// Whether a node carries traction.
+    /// `true` for nodes that carry traction.
     pub carries: Vec<bool>,
     /// Patch of a node, `None` without an overlap.
     pub patch: Vec<Option<u32>>,
@@ -145,7 +144,7 @@ fn carriers(interface: &Interface) -> [Vec<bool>; 2] {
     carried
 }
 
-/// The same and, against a rigid surface, their neighbours.
+/// Carrying nodes and, against a rigid surface, their neighbours.
 fn with_neighbours(interface: &Interface, carried: &[Vec<bool>; 2]) -> [Vec<bool>; 2] {
     let mut wanted = carried.clone();
     if let Opponent::Rigid { whole } = interface.opponent {
@@ -199,7 +198,7 @@ fn ordered(interface: &Interface, wanted: &[Vec<bool>; 2]) -> (Vec<(Side, Surfac
 /// Corners of a polygon in order.
 struct Block {
     nodes: Vec<u32>,
-    /// Where they stand in the polygon's own mass.
+    /// Positions in the polygon's own mass.
     from: Vec<u8>,
     source: usize,
 }

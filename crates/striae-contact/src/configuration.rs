@@ -1,4 +1,4 @@
-//! Where the two sides of a pair are: positions, normals and search trees.
+//! Configuration of the two sides of a pair: positions, normals and search trees.
 
 use striae_mesh::{FacetId, Vec3};
 use striae_surface::{
@@ -21,7 +21,7 @@ pub struct Configuration<'a> {
     pub pair: &'a ContactPair,
     /// Snapshots of the sides; a plane has none, nor has side `b` of self-contact.
     pub sides: [Option<Snapshot<'a>>; 2],
-    /// Where a rigid side `b` is.
+    /// Placement of a rigid side `b`.
     pub placement: Placement,
     /// Time since the last converged configuration; infinite where it does not matter.
     pub elapsed: f64,
@@ -67,7 +67,7 @@ impl<'a> Configuration<'a> {
         }
     }
 
-    /// The same configuration reached in the time `elapsed`.
+    /// Copy of the configuration, reached in the time `elapsed`.
     pub fn lasting(self, elapsed: f64) -> Self {
         Self { elapsed, ..self }
     }

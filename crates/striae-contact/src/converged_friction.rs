@@ -28,7 +28,7 @@ use crate::{
 /// the configuration `start`.
 ///
 /// # Errors
-/// Where the facets around the node had collapsed to a line.
+/// If the facets around the node had collapsed to a line.
 pub fn converged_friction(
     configuration: &Configuration,
     start: &Configuration,

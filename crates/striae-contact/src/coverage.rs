@@ -1,4 +1,4 @@
-//! Which nodes of a side see the other side, and at what distance.
+//! Nodes of a side that see the other side, and their distances.
 
 use nalgebra::Vector3;
 use striae_mesh::{FacetId, Vec3};
@@ -11,7 +11,7 @@ use crate::{
     side::Side,
 };
 
-/// What a node sees along its normal.
+/// Visibility of the other side along the normal of a node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Coverage {
     /// The other side within reach.
@@ -27,7 +27,7 @@ pub enum Coverage {
 pub struct Contact {
     /// Gap, positive when open.
     pub gap: f64,
-    /// Where the point is.
+    /// Place of the point.
     pub place: Place,
 }
 
@@ -40,7 +40,7 @@ pub enum Place {
     Plane(Vec3),
 }
 
-/// Where a node finds the point opposite to it.
+/// Place at which a node finds the point opposite to it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Found {
     /// Along the normal.
@@ -50,10 +50,10 @@ pub enum Found {
     Edge([SurfaceNode; 2]),
 }
 
-/// How many reaches away a surface counts as seen, though out of reach.
+/// Distance, in reaches, up to which a surface counts as seen, though out of reach.
 const HORIZON: f64 = 20.0;
 
-/// How many reaches around a node a rigid surface is looked for.
+/// Distance, in reaches, around a node within which a rigid surface is searched.
 const FOLLOW: f64 = 6.0;
 
 impl Configuration<'_> {
@@ -82,6 +82,8 @@ impl Configuration<'_> {
                 place: Place::Plane(x - normal * gap),
             });
         }
+        // Rows against a rigid surface use its normals, so its normal is the direction of the gap,
+        // too.
         let ray = if self.pair.is_rigid() {
             Ray::Opposite
         } else {
@@ -106,6 +108,8 @@ impl Configuration<'_> {
         node: SurfaceNode,
         on: impl Fn(FacetId) -> bool,
     ) -> Option<(Contact, Found)> {
+        // Frames against rigid surfaces are those of the projection, which is needed beside the
+        // edge as well, but not far from it.
         let far = if self.pair.is_rigid() {
             FOLLOW
         } else {
@@ -149,6 +153,8 @@ impl Configuration<'_> {
         let around = own.surface.corners(node).iter();
         let depths = around.map(|corner| self.pair.sides[side].depth(corner.facet));
         let opposing = &self.pair.sides[self.pair.opposing(side)];
+        // Behind its own body by more than half the thickness, a node faces the back of another
+        // layer.
         !self.is_corner(side, node, facet) && -gap <= depths.fold(opposing.depth(facet), f64::min)
     }
 
@@ -172,12 +178,13 @@ impl Configuration<'_> {
         corners.any(|corner| other.surface.nodes()[corner.index()] == node)
     }
 
-    /// What a node of a deformable side sees.
+    /// Visibility of the other side from a node of a deformable side.
     pub fn coverage(&self, side: Side, node: SurfaceNode) -> Coverage {
         let reach = self.reach(side, node);
         match self.contact(side, node, HORIZON * reach) {
             Some(contact) if contact.gap.abs() <= reach => Coverage::Near(contact),
             Some(_) => Coverage::Far,
+            // An unbounded plane cannot be missed.
             None if self.plane().is_some() => Coverage::Far,
             None => Coverage::Missed,
         }

@@ -1,10 +1,10 @@
 //! The directions in which friction of kept nodes is determined.
 //!
-//! Where displacements are prescribed on both sides, or several pairs hold one node, positions
-//! are left that answer to fewer tractions than there are unknowns: a plane of symmetry, the
-//! edge along which two planes meet. With the positions `J` that contact moves, `P_J` that
-//! removes the prescribed components and `kappa_J` of [`crate::roles`], the unknowns of a kept
-//! node `k` act by the columns
+//! If displacements are prescribed on both sides, or several pairs hold one node, positions are
+//! left that answer to fewer tractions than there are unknowns: a plane of symmetry, the edge along
+//! which two planes meet. With the positions `J` that contact moves, `P_J` that removes the
+//! prescribed components and `kappa_J` of [`crate::roles`], the unknowns of a kept node `k` act by
+//! the columns
 //!
 //! ```text
 //! pressure   f_Jk  = sqrt(kappa_J) P_J sum_segments (+-) D_kJ n                / sqrt(w_k l_k)
@@ -23,8 +23,8 @@
 //! In a direction that is not kept the row of friction is `z = 0`, and slip there does not
 //! count. Directions are components along the nodal tangents and constant in an increment.
 //!
-//! Null vectors of a mass matrix fade by .27 from node to node: columns further than
-//! two couplings from a contested one bear on nothing.
+//! Null vectors of a mass matrix fade by .27 from node to node: columns further than two couplings
+//! from a contested one have no effect.
 
 mod gram;
 
@@ -72,7 +72,7 @@ impl Mover {
 
 /// A pair as it takes part in the choice.
 pub struct Party<'a> {
-    /// Where everything is.
+    /// Configuration of the pair.
     pub configuration: &'a Configuration<'a>,
     /// Roles.
     pub selection: &'a Selection,

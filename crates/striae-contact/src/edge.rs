@@ -103,7 +103,7 @@ impl OnEdge {
         self.weights_along(self.share.value)
     }
 
-    /// The same for a share with derivatives.
+    /// Weights for a share with derivatives.
     pub fn weights_along<D: Real>(&self, share: D) -> [D; 4] {
         let mut weights = [D::from(0.0); 4];
         weights[self.ends[0]] = -share + 1.0;

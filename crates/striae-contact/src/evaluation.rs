@@ -45,14 +45,14 @@ pub struct Evaluation {
     pub carried: [Vec<[f64; 3]>; 2],
     /// Forces on the facets of each side.
     pub facets: [Vec<(FacetId, FacetForces)>; 2],
-    /// Which facets are paired, and which corners and edges bound their polygons, as a number.
-    /// Integrals of contact jump a little where it changes.
+    /// Hash of the paired facets and of the corners and edges that bound their polygons. Integrals
+    /// of contact jump slightly when it changes.
     pub topology: u64,
     /// Work that friction dissipates at the nodes that slip, `-sum_k w_k tau_k . du_k`.
     pub dissipated: f64,
 }
 
-/// Why a pair cannot be evaluated.
+/// Reason why a pair cannot be evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Collapse {
     /// A texture has no direction left.

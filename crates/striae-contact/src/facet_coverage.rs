@@ -1,4 +1,4 @@
-//! Whether a facet is covered by the other side: wholly, partly or not at all.
+//! Coverage of a facet by the other side: full, partial or none.
 
 use striae_mesh::{FacetId, Vec3};
 use striae_surface::{
@@ -9,7 +9,7 @@ use striae_surface::{
 
 use crate::{configuration::Configuration, search::Bounds, segment::FACING, side::Side};
 
-/// How much of a facet the other side covers.
+/// Part of a facet that the other side covers.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum FacetCoverage {
     /// Nothing.
@@ -51,8 +51,8 @@ impl Configuration<'_> {
         }
     }
 
-    /// Whether an edge of the surface passes within `distance` of the point. Boxes
-    /// only sort out: the choice of quadrature must not depend on the axes.
+    /// Returns whether an edge of the surface passes within `distance` of the point. Boxes serve as
+    /// a filter only: the choice of quadrature must not depend on the axes.
     fn is_near_edge(&self, side: Side, x: &Vec3, distance: f64) -> bool {
         let snapshot = self.side(side);
         let edges = snapshot.surface.boundary_edges();

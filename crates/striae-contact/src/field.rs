@@ -39,7 +39,7 @@ use crate::{
 /// The fields of both sides.
 #[derive(Clone, Copy, Debug)]
 pub struct Fields<'a> {
-    /// Where everything is.
+    /// Configuration of the pair.
     pub configuration: &'a Configuration<'a>,
     /// Nodal frames.
     pub frames: &'a Frames,

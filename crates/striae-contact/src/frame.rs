@@ -97,7 +97,7 @@ fn rigid_normal(configuration: &Configuration, node: SurfaceNode) -> Option<Trac
     })
 }
 
-/// The same at the nearest place of the edge of the rigid surface.
+/// Normal and its derivatives at the nearest point of the edge of the rigid surface.
 fn normal_on_edge(
     configuration: &Configuration,
     node: SurfaceNode,

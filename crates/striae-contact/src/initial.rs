@@ -1,4 +1,4 @@
-//! How the sides of a pair fit before anything has moved: gaps and overlaps.
+//! Initial fit of the sides of a pair: gaps and overlaps before any motion.
 //!
 //! ```text
 //! gap > 0:  distance from the nearest point of the other side, for points that face it
@@ -20,7 +20,7 @@ use crate::{
     side::Side,
 };
 
-/// How two sides fit.
+/// Initial fit of two sides.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fit {
     /// The smallest gap; `None` where the sides do not face each other.
@@ -29,11 +29,11 @@ pub struct Fit {
     pub overlap: Option<Interference>,
     /// Distance of the sides where they are nearest, whatever faces what.
     pub distance: f64,
-    /// Whether all nodes of side `a` are behind a rigid side.
+    /// Position of side `a` relative to a rigid side.
     pub lies: Lies,
 }
 
-/// Where side `a` is with respect to a rigid side.
+/// Position of side `a` relative to a rigid side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lies {
     /// Some of it is in front, or the other side is not rigid.
@@ -49,13 +49,13 @@ pub struct Opening {
     pub side: Side,
     /// The point.
     pub spot: Spot,
-    /// Where it is.
+    /// Position of the point.
     pub point: Vec3,
     /// Its distance.
     pub gap: f64,
 }
 
-/// How the sides of a pair fit.
+/// Initial fit of the sides of a pair.
 pub fn fit(stage: &Stage) -> Fit {
     let seen: Vec<Seen> = sides(stage)
         .flat_map(|side| {
@@ -125,13 +125,13 @@ pub fn overlaps(stage: &Stage) -> [Vec<f64>; 2] {
     all
 }
 
-/// What a point sees of the other side.
+/// View of the other side from a point.
 struct Seen {
     opening: Opening,
     standing: Standing,
-    /// Whether the point is in front of what it sees, and faces it.
+    /// `true` if the point is in front of the facet it sees and faces it.
     faces: bool,
-    /// Whether a point behind is inside.
+    /// `true` if a point behind the surface is inside the body.
     within: bool,
     /// Distance behind the plane of the nearest facet.
     depth: f64,

@@ -1,4 +1,4 @@
-//! What the roles and the traction field of a pair are chosen from: nodes, common
+//! Data from which the roles and the traction field of a pair are determined: nodes, common
 //! integrals and projections of both surfaces, as plain values.
 //!
 //! Lengths, areas and moduli in the user's units; `h` is a size of the facets at a
@@ -8,25 +8,25 @@ use crate::side::Side;
 use striae_mesh::Vec3;
 use striae_surface::node::SurfaceNode;
 
-/// Whether a node carried traction unknowns in the last increment.
+/// Record of whether a node carried traction unknowns in the last increment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LastIncrement {
-    /// It was kept: it competes with twice its pivot.
+    /// The node was kept: it competes with twice its pivot.
     Kept,
-    /// It was not.
+    /// The node was not kept.
     NotKept,
 }
 
 /// A node of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InterfaceNode {
-    /// Where it is.
+    /// Position of the node.
     pub position: Vec3,
     /// `h/E` of the body behind it, zero if rigid or wholly prescribed.
     pub flexibility: f64,
     /// `1/(E h)`, zero if rigid or wholly prescribed.
     pub compliance: f64,
-    /// What it did in the last increment.
+    /// Role in the last increment.
     pub last: LastIncrement,
 }
 
@@ -55,7 +55,7 @@ pub struct FacetMass {
 /// clamped to the opposing surface: non-negative, of sum one.
 pub type ClampedProjection = ([SurfaceNode; 4], [f64; 4]);
 
-/// What side 1 is.
+/// Kind of side 1.
 #[derive(Clone, Copy, Debug)]
 pub enum Opponent<'a> {
     /// A deformable body: nodes of both sides compete.
@@ -85,7 +85,7 @@ pub struct Interface<'a> {
     pub overlaps: &'a [Overlap],
     /// For every node its projection if it is within reach.
     pub opposing: [&'a [Option<ClampedProjection>]; 2],
-    /// What side 1 is.
+    /// Kind of side 1.
     pub opponent: Opponent<'a>,
 }
 

@@ -1,22 +1,22 @@
-//! Interference of the two sides of a pair, whatever contact has seen of it.
+//! Interference of the two sides of a pair, independent of what contact detected.
 //!
-//! It is found from two converged configurations on *all* facets, without a search
-//! distance and without a formulation of contact:
+//! Interference is found from two converged configurations on *all* facets, without a search
+//! distance and without a contact formulation:
 //!
 //! - **inside**: a point of one side is behind the other one, by less than the body is
 //!   thick there, see [`nearest`](Nearest) and [`Thickness`];
-//! - **passed**: a point goes through a facet of the other side on its way, both moving
-//!   in straight lines, and is behind it for a while. So a body that has gone through a
-//!   thin one is found, too.
+//! - **passed**: a point passes through a facet of the other side on its way, both moving along
+//!   straight lines, and is behind it for some time. This also finds bodies that went through a
+//!   thin one.
 //!
-//! Points are the nodes of the surfaces and the centres of their facets. What lies
-//! behind by less than a share of the local facet size (or of 2.5 times the thickness,
-//! if that is less) is none, as weighted contact lets nodes in a little, nor is what was in as deep before. Against a rigid plane
-//! what counts is the distance. Bodies whose swept boxes do not meet cost nothing,
-//! others `O(n log n)`. The motion of a rigid body that turns is that of its chords,
-//! so an increment should turn by much less than half a turn.
+//! Points are the nodes of the surfaces and the centres of their facets. Depths below a share of
+//! the local facet size (or of 2.5 times the thickness, if that is smaller) are ignored, as
+//! weighted contact lets nodes penetrate a little, and so are depths that were no smaller before.
+//! Against a rigid plane the distance decides. Bodies whose swept boxes do not meet cost nothing,
+//! others `O(n log n)`. Points of a rotating rigid body move along chords, so an increment should
+//! rotate it by much less than half a turn.
 //!
-//! Longer than other files, as it is the one audit of where points of a pair are.
+//! Longer than other files, as it holds the whole audit of where the points of a pair are.
 
 mod facing;
 mod nearest;
@@ -55,9 +55,9 @@ const THIN: f64 = 2.5;
 /// A configuration and how thick the bodies are in it.
 #[derive(Clone, Copy, Debug)]
 pub struct Stage<'a> {
-    /// Where the sides are.
+    /// Configuration of the sides.
     pub configuration: &'a Configuration<'a>,
-    /// How thick they are.
+    /// Thickness of the bodies behind them.
     pub thickness: &'a Thickness,
 }
 
@@ -70,16 +70,16 @@ pub struct Interference {
     pub spot: Spot,
     /// Surface node that is the point, or the corner of its facet that is in deepest.
     pub node: SurfaceNode,
-    /// Where the point is at the end.
+    /// Position of the point at the end.
     pub point: Vec3,
     /// Distance behind the other surface; the largest on its way for what passed, and
     /// the distance on the other side for what has gone through a body.
     pub depth: f64,
     /// Local facet size, by which depth is judged.
     pub size: f64,
-    /// What it is in.
+    /// Body or surface that the point is in.
     pub place: Place,
-    /// How it came there.
+    /// Kind of interference.
     pub kind: Kind,
 }
 
@@ -99,7 +99,7 @@ pub enum Spot {
     Centre(FacetId),
 }
 
-/// What a point is behind.
+/// Part of the other side that a point is behind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
     /// A rigid plane.
@@ -108,14 +108,14 @@ pub enum Place {
     Facet(FacetId),
 }
 
-/// How a point came to be where the other side is.
+/// Kind of interference, by how the point got there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// It is inside.
+    /// The point is inside.
     Inside,
-    /// It has passed through the surface and is not inside any more.
+    /// The point has passed through the surface and is not inside any more.
     Passed,
-    /// It has passed through the body and out on its other side.
+    /// The point has passed through the body and left it on the other side.
     Crossed,
 }
 
@@ -193,7 +193,7 @@ fn inside_by(
     Side::BOTH.into_iter().flat_map(within).collect()
 }
 
-/// Where a point is with respect to the facets of a side.
+/// Position of a point relative to the facets of a side.
 pub fn nearest_of(snapshot: &Snapshot, x: &Vec3) -> Option<Nearest> {
     placed(snapshot).nearest(x)
 }
@@ -205,7 +205,7 @@ pub(crate) fn spots(surface: &Surface) -> Vec<Spot> {
     nodes.chain(centres).collect()
 }
 
-/// Where a point of a surface is.
+/// Position of a point of a surface.
 pub fn position(snapshot: &Snapshot, spot: Spot) -> Vec3 {
     located(snapshot.surface, spot, |node| snapshot.x[node])
 }
@@ -287,7 +287,7 @@ fn thin(stage: &Stage, side: Side, facet: FacetId) -> f64 {
     THIN * stage.thickness.0[side.opposite()][facet.index()]
 }
 
-/// Where a point is inside the other side.
+/// Depth of a point inside the other side, with the nearest point.
 fn depth_inside(stage: &Stage, side: Side, spot: Spot) -> Option<Nearest> {
     let x = position(stage.configuration.side(side), spot);
     let other = stage.configuration.side(side.opposite());

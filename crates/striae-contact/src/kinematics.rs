@@ -7,7 +7,7 @@ use crate::{
     unknown::Gradient,
 };
 
-/// What contact and friction at a kept node depend on.
+/// Kinematic quantities that contact and friction at a kept node depend on.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Kinematics {
     /// Gap, positive when open.
@@ -23,15 +23,15 @@ pub struct Kinematics {
     /// Derivative of the mean gap over the support by the positions of nodes, whether or not
     /// points of it are open.
     pub reaches: Gradient,
-    /// Whether any segment of the present configuration bears on the node.
+    /// Presence of segments that contribute to the node in the present configuration.
     pub presence: Presence,
-    /// How its pressure is decided.
+    /// Law that determines its pressure.
     pub pressure: Pressure,
     /// Pressure per gap and friction per slip, `[r_n, r_t]`, that scale the complementarity.
     pub stiffness: [f64; 2],
 }
 
-/// How the pressure of a node is decided.
+/// Law that determines the pressure of a node.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Pressure {
     /// By the sign of the augmented pressure `p - r_n g` at the node.
@@ -48,7 +48,7 @@ pub struct Supported {
     pub weight: TrackedScalar,
     /// Share of the support that is closed at the full bedding.
     pub closed: f64,
-    /// Whether any point is closed.
+    /// `true` if any point is closed.
     pub touches: bool,
     /// `r_k`.
     pub bedding: f64,
@@ -68,19 +68,20 @@ impl Kinematics {
     }
 }
 
-/// Whether a node faces the other side.
+/// Presence of the other side at a node.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Presence {
-    /// It does.
+    /// The node faces the other side.
     #[default]
     Facing,
-    /// It does, but no point of its support is closed, and nothing else gives it pressure.
+    /// The node faces the other side, but no point of its support is closed and nothing else gives
+    /// it pressure.
     Apart,
-    /// It has left the other side in this increment.
+    /// The node has left the other side in this increment.
     Gone,
 }
 
-/// What is reported of a node, kept or not.
+/// Values reported for a node, kept or not.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Report {
     /// Gap.

@@ -17,9 +17,9 @@ pub struct ContactPair {
     pub name: String,
     /// The two sides.
     pub sides: [PairedSurface; 2],
-    /// How contact is enforced.
+    /// Enforcement of contact.
     pub enforcement: Enforcement,
-    /// Distance over which contact is looked for ahead; `None`: half the local facet size.
+    /// Distance within which contact is searched; `None`: half the local facet size.
     pub search_distance: Option<f64>,
     /// Surfaces consist of faces, each with nodes of its own on the edges between them, so a node
     /// looks only at facets that face its own.
@@ -78,7 +78,7 @@ pub enum Geometry {
     },
 }
 
-/// How contact is enforced.
+/// Enforcement of contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub enum Enforcement {
     /// One traction field for both sides and rows weighted with it.
@@ -94,7 +94,7 @@ impl ContactPair {
         Numbering::new(self.carriers())
     }
 
-    /// How many nodes may bear traction by side: those of deformable sides.
+    /// Number of nodes that may bear traction, by side: those of deformable sides.
     pub fn carriers(&self) -> [usize; 2] {
         Side::BOTH.map(|side| match &self.sides[side].geometry {
             Geometry::Deformable(surface) => surface.nodes().len(),
@@ -102,12 +102,12 @@ impl ContactPair {
         })
     }
 
-    /// Whether the nodes of a side are deformable.
+    /// Returns whether the nodes of a side are deformable.
     pub(crate) fn is_deformable(&self, side: Side) -> bool {
         matches!(self.sides[side].geometry, Geometry::Deformable(_))
     }
 
-    /// Whether side `b` is rigid.
+    /// Returns whether side `b` is rigid.
     pub fn is_rigid(&self) -> bool {
         let geometry = &self.sides[Side::B].geometry;
         matches!(geometry, Geometry::Rigid(_) | Geometry::Plane { .. })
@@ -119,7 +119,7 @@ impl ContactPair {
     }
 
     /// Returns whether what lies between facets that face each other may be their own body. Its
-    /// skin, not the pair, then tells what is inside.
+    /// skin, not the pair, then determines what is inside.
     pub fn is_in_one_body(&self) -> bool {
         self.one_body || self.is_self_contact()
     }

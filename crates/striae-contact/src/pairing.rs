@@ -36,7 +36,7 @@ pub struct PairedFacets {
     pub segment: Segment,
 }
 
-/// Which facets are paired.
+/// Facets that are paired.
 #[derive(Clone, Copy, Debug)]
 pub struct Scope<'a> {
     /// Compliance `h/E` of the facets by side, which weighs their normals; zero if rigid.
@@ -132,6 +132,7 @@ pub(crate) fn compliances(configuration: &Configuration) -> [Vec<f64>; 2] {
         let facets = surface.facets().iter();
         facets
             .map(|corners| {
+                // A rigid side does not tilt, so the normal of a pair is its normal alone.
                 if rigid {
                     return 0.0;
                 }
@@ -176,6 +177,7 @@ pub fn paired_facets(
     let itself = configuration.pair.is_self_contact();
     let found: Vec<Vec<PairedFacets>> = (0..own.surface.facets().len())
         .into_par_iter()
+        // Results are collected by facet, so the division of work among threads changes no bit.
         .with_min_len(4)
         .map(|facet| {
             let facet = FacetId::new(facet);
@@ -219,6 +221,8 @@ fn of_facet(
     let is_near = |paired: &PairedFacets| {
         let gap = paired.mean_gap(configuration);
         let near = || paired.least_gap(configuration) <= paired.reach;
+        // Segments deeper than the reach face each other through a body, unless the sides approach
+        // that far in this increment.
         -gap <= paired.reach + scope.depth && (gap <= paired.reach || near())
     };
     if let Some((point, normal)) = configuration.plane() {
@@ -239,10 +243,12 @@ fn of_facet(
     let itself = configuration.pair.is_self_contact();
     let one_body = configuration.pair.is_in_one_body();
     let farthest = farthest(configuration);
+    // The box has to contain whatever the larger facets of the other side can reach.
     let bounds = own.bounds(facet).inflated(farthest + scope.depth);
     let mut found = Vec::new();
     for item in other.tree.meeting(&bounds) {
         let opposite = FacetId(item);
+        // Each pair of facets of one surface would be found twice.
         if itself && (opposite <= facet || !is_wanted(opposite)) {
             continue;
         }
@@ -267,6 +273,7 @@ fn of_facet(
         let reach = if configuration.pair.is_rigid() {
             reach
         } else {
+            // The larger reach of both, so that the pairing does not depend on which side is `a`.
             reach.max(self::reach(configuration, sides[1], &corners_b))
         };
         let paired = PairedFacets {

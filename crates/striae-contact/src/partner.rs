@@ -1,4 +1,4 @@
-//! What was opposite to nodes at the start of an increment, for collocated slip.
+//! Points opposite to nodes at the start of an increment, for collocated slip.
 
 use striae_mesh::Vec3;
 use striae_surface::node::SurfaceNode;
@@ -20,7 +20,7 @@ pub enum Partner {
 }
 
 impl Partner {
-    /// Where the point is now, seen from a node of `side`.
+    /// Present position of the point, as seen from a node of `side`.
     pub fn point(&self, configuration: &Configuration, side: Side) -> Vec3 {
         match self {
             Partner::Rigid(point) => configuration.placement.point(point),
@@ -32,7 +32,7 @@ impl Partner {
     }
 }
 
-/// What is opposite to the kept nodes, where rows are collocated.
+/// Points opposite to the kept nodes, where rows are collocated.
 pub(crate) fn partners(
     configuration: &Configuration,
     basis: &TractionBasis,

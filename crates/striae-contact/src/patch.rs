@@ -27,7 +27,7 @@ pub struct Patch {
     pub rows: SegmentRows,
     /// Kept nodes, in their order.
     pub kept: Vec<OnSegment>,
-    /// What pressure does, in the order of the kept nodes.
+    /// Integrals of pressure, in the order of the kept nodes.
     pub pressed: Pressed,
 }
 
@@ -38,8 +38,8 @@ pub struct OnSegment {
     pub k: u32,
     /// Its basis function for pressure at the corners: `phi_k = sum_c share_kc N_c`.
     pub shares: [f64; 8],
-    /// That for friction as the first facet sees it, `psi_k`: the same with the sign of what is
-    /// handed on from the node to the corner, and from there to the first facet.
+    /// Function for friction as the first facet sees it, `psi_k`: with the sign of what is passed
+    /// on from the node to the corner, and from there to the first facet.
     pub slips: [f64; 8],
     /// 1 where the node is seen from the side of the first facet, -1 from that of the second.
     pub sign: f64,
@@ -84,7 +84,8 @@ pub(crate) fn kept_on(
     kept
 }
 
-/// Whether derivatives of what facets with these corners add to rows are wanted.
+/// Returns which derivatives are needed of the contributions of facets with these corners to the
+/// rows.
 pub(crate) fn wanted(
     configuration: &Configuration,
     selection: &Selection,
@@ -112,12 +113,12 @@ pub(crate) fn wanted(
 pub(crate) struct Pressures<'a> {
     /// Unknowns and beddings.
     pub tractions: &'a Tractions,
-    /// Which iteration it is.
+    /// Stage of the iteration.
     pub iteration: Iteration,
 }
 
 impl Pressures<'_> {
-    /// What they do on a segment.
+    /// Integrals of the pressures over a segment.
     fn on(
         &self,
         configuration: &Configuration,

@@ -4,8 +4,8 @@
 //! d_k = S_kk - S_kn S_nn^-1 S_nk,   n: kept nodes that couple with k
 //! ```
 //!
-//! Every candidate has its own Cholesky factor of `S_nn`, which grows by a row when
-//! a neighbour is kept and the pivot is asked for again. Pivots only fall.
+//! Every candidate has its own Cholesky factor of `S_nn`, which grows by a row when a neighbour is
+//! kept and the pivot is requested again. Pivots only fall.
 
 use crate::common_mass::SparseRow;
 
@@ -71,7 +71,7 @@ impl Pivots {
         self.of[k as usize].value
     }
 
-    /// Whether the last value still holds.
+    /// Returns whether the last value is still valid.
     pub fn is_fresh(&self, k: u32) -> bool {
         self.of[k as usize].pending.is_empty()
     }
@@ -84,6 +84,8 @@ impl Pivots {
             self.place[n as usize] = at as u32 + 1;
         }
         let mut done = 0;
+        // Once the pivot is below the floor its exact value decides nothing; the rest stays
+        // pending.
         while done < pending.len() && pivot.value >= floor {
             let block = &pending[done..pending.len().min(done + BLOCK)];
             self.append(&mut pivot, k, block);

@@ -1,4 +1,4 @@
-//! Where a rigid side is: `x = R X + s` for the point `X` of its reference configuration.
+//! Placement of a rigid side: `x = R X + s` for the point `X` of its reference configuration.
 
 use nalgebra::{Matrix3, Vector3};
 use striae_mesh::Vec3;
@@ -14,7 +14,7 @@ pub struct Placement {
 }
 
 impl Placement {
-    /// Where it was at first.
+    /// Initial placement.
     pub fn at_rest() -> Self {
         Self::shifted(Vec3::zeros())
     }
@@ -27,12 +27,12 @@ impl Placement {
         }
     }
 
-    /// Where the point `X` is.
+    /// Position of the point `X`.
     pub fn point(&self, reference: &Vec3) -> Vec3 {
         self.rotation * reference + self.shift
     }
 
-    /// Where the direction `V` points.
+    /// Image of the direction `V`.
     pub fn direction(&self, reference: &Vec3) -> Vec3 {
         self.rotation * reference
     }
@@ -42,14 +42,14 @@ impl Placement {
         self.rotation.tr_mul(&(x - self.shift))
     }
 
-    /// The same for numbers with derivatives.
+    /// Inverse map for numbers with derivatives.
     pub(crate) fn back_of<D: Real>(&self, x: &Vector3<D>) -> Vector3<D> {
         self.rotation
             .map(D::from)
             .tr_mul(&(x - constant3(&self.shift)))
     }
 
-    /// The same for directions, from the reference configuration.
+    /// Map of directions from the reference configuration, for numbers with derivatives.
     pub(crate) fn direction_of<D: Real>(&self, reference: &Vector3<D>) -> Vector3<D> {
         self.rotation.map(D::from) * reference
     }

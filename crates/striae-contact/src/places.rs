@@ -1,4 +1,4 @@
-//! Where triples are in a list.
+//! Positions of triples in a list.
 //!
 //! Derivatives are lists of blocks by [triple](crate::unknown), in any order. Summing such
 //! lists asks for each triple where it is in the sum, if it is there. A table over all
@@ -27,7 +27,7 @@ thread_local! {
 }
 
 impl Places {
-    /// Those of an empty list.
+    /// Places of an empty list.
     pub fn none() -> Self {
         let mut table = SPARE.take();
         if table.list == u32::MAX {
@@ -37,7 +37,7 @@ impl Places {
         Self(table)
     }
 
-    /// Those of a list of different triples.
+    /// Places of a list of distinct triples.
     pub fn of(triples: impl Iterator<Item = u32>) -> Self {
         let mut places = Self::none();
         for (at, first) in triples.enumerate() {

@@ -43,7 +43,7 @@ pub enum Ray {
     Opposite,
 }
 
-/// How far outside a facet a hit may lie, in facet coordinates.
+/// Distance outside a facet up to which a hit may lie, in facet coordinates.
 const ROUND_OFF: f64 = 1e-8;
 
 /// Projects the point `x` onto those facets of `target` within the distance `reach` that are

@@ -91,8 +91,8 @@ pub fn add_to_gaps(
     }
 }
 
-/// Which kept nodes are given pressure: by points of their support, or by the ramp from others
-/// that are.
+/// Kept nodes that are given pressure: by points of their support, or by the ramp from others that
+/// are.
 fn given_pressure(selection: &Selection, kinematics: &[Kinematics]) -> Vec<bool> {
     let touches = |kinematics: &Kinematics| match &kinematics.pressure {
         Pressure::AtNode => true,
@@ -110,10 +110,10 @@ fn given_pressure(selection: &Selection, kinematics: &[Kinematics]) -> Vec<bool>
     given
 }
 
-/// What the slips of the ramp depend on.
+/// Quantities that the slips of the ramp depend on.
 #[derive(Clone, Copy)]
 pub struct Ramp<'a> {
-    /// Where everything is.
+    /// Configuration of the pair.
     pub configuration: &'a Configuration<'a>,
     /// The last converged configuration.
     pub start: &'a Configuration<'a>,
@@ -146,10 +146,10 @@ struct Ramped<'a> {
 }
 
 impl Ramp<'_> {
-    /// Adds what the ramp does to the slips.
+    /// Adds the contribution of the ramp to the slips.
     ///
     /// # Errors
-    /// Where the facets around a node had collapsed to a line.
+    /// If the facets around a node had collapsed to a line.
     pub fn add_to_slips(&self, kinematics: &mut [Kinematics]) -> Result<(), CollapsedFacets> {
         let all = self.coupling_of(|_| true);
         let stuck = self.coupling_of(|(side, node)| self.tractions.stuck[side][node]);

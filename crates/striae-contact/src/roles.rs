@@ -1,4 +1,4 @@
-//! Which nodes of a pair keep traction unknowns.
+//! Choice of the nodes of a pair that keep traction unknowns.
 //!
 //! The choice maximises pivots of a local, dimensionless surrogate of the compliance
 //! that the unknowns of both bodies see:
@@ -42,6 +42,8 @@
 //! Against a rigid surface unknowns of one side do not compete. There
 //! `d_k = 1/4 sum_i D_ki^2 / sum_i (D_ki of whole facets)^2`: 1/4 as that of an
 //! interior node above, and falling to zero as a sliver does.
+//!
+//! Longer than other files, as the contest of the nodes is one algorithm.
 
 mod actions;
 
@@ -54,7 +56,6 @@ use crate::{
     interface::{Interface, LastIncrement, Opponent},
     pivots::Pivots,
     roles::actions::Actions,
-    selection::Kept,
 };
 
 /// Pivot from which a node is kept.
@@ -67,7 +68,7 @@ pub const SAME_PLACE: f64 = 1e-9;
 const STAY: f64 = 2.0;
 /// Coupling below which two nodes are no neighbours.
 const UNCOUPLED: f64 = 1e-14;
-/// What is added to the diagonal for pivots against all kept neighbours.
+/// Term added to the diagonal for pivots against all kept neighbours.
 const BLUR: f64 = 0.02;
 /// Pivot of an interior node.
 const INTERIOR: f64 = 0.25;
@@ -76,7 +77,7 @@ const INTERIOR: f64 = 0.25;
 pub(crate) struct Choice {
     /// Sorted by side and number.
     pub kept: Vec<u32>,
-    /// How independent of each other they are, for the ramp.
+    /// Mutual independence of the kept nodes, for the ramp.
     pub pivots: Vec<f64>,
     /// `l_k`.
     pub flexibility: Vec<f64>,
@@ -99,7 +100,7 @@ impl Choice {
     }
 
     /// Keeps given nodes, as far as they have overlaps.
-    pub fn given(interface: &Interface, mass: &CommonMass, kept: &Kept) -> Self {
+    pub fn given(interface: &Interface, mass: &CommonMass, kept: &[Vec<bool>; 2]) -> Self {
         let flexibility = flexibility(interface, mass);
         let count = mass.nodes.len() as u32;
         let is_kept = |&k: &u32| {
@@ -121,6 +122,8 @@ impl Choice {
     }
 
     fn of(mass: &CommonMass, flexibility: Vec<f64>, mut chosen: Vec<(u32, f64)>) -> Self {
+        // The order of choice is a heuristic; unknowns are numbered by side and node, whatever it
+        // was.
         chosen.sort_by_key(|&(k, _)| mass.nodes[k as usize]);
         Self {
             flexibility: chosen
@@ -137,11 +140,15 @@ impl Choice {
 fn independence(mut surrogate: Vec<SparseRow>, chosen: Vec<(u32, f64)>) -> Vec<(u32, f64)> {
     for (k, row) in surrogate.iter_mut().enumerate() {
         if let Some(entry) = row.iter_mut().find(|entry| entry.0 == k as u32) {
+            // Without it two nodes that depend on each other would both count as worthless, and the
+            // ramp would stiffen both.
             entry.1 += BLUR;
         }
     }
     let mut pivots = Pivots::new(surrogate);
     chosen.iter().for_each(|&(k, _)| pivots.keep(k));
+    // The pivots of the choice depend on the order in which nodes were kept and jump when two of
+    // them change places; these do not.
     let of = |&(k, _): &(u32, f64)| (k, pivots.refresh(k, 0.0) - BLUR);
     chosen.iter().map(of).collect()
 }
@@ -203,6 +210,7 @@ fn surrogate(interface: &Interface, mass: &CommonMass, flexibility: &[f64]) -> V
         for (l, value) in &mut row {
             *value *= scale[k] * scale[*l as usize];
         }
+        // Round-off would couple nodes that share no segment, and lengthen every elimination.
         row.retain(|&(_, value)| value.abs() > UNCOUPLED);
         row
     };
@@ -223,7 +231,7 @@ fn covered(mass: &CommonMass) -> Vec<f64> {
     mass.rows.iter().zip(&mass.whole).map(pivot).collect()
 }
 
-/// Who competes, and the order among equals.
+/// Competing nodes, and the order among equals.
 struct Contest<'a> {
     mass: &'a CommonMass,
     /// Candidates, the first to win a tie first.
@@ -253,6 +261,7 @@ impl PartialOrd for Bid {
 impl Ord for Bid {
     fn cmp(&self, other: &Self) -> Ordering {
         let by_value = self.value.total_cmp(&other.value);
+        // The queue returns the largest bid first, so a low rank has to compare as large.
         by_value.then(other.rank.cmp(&self.rank))
     }
 }
@@ -297,9 +306,12 @@ impl<'a> Contest<'a> {
         let mut queue: BinaryHeap<Bid> = first.iter().map(|&(k, d)| self.bid(k, d)).collect();
         let mut kept = Vec::new();
         while let Some(tie) = self.next_tie(&mut queue, &mut pivots) {
+            // Bids this close are equal but for round-off: position decides among them, not the
+            // last digits.
             let least = (tie.largest * (1.0 - TIE)).max(THETA_0);
             for k in tie.nodes {
                 let floor = least / self.factor[k as usize];
+                // A member of the tie that was kept just before may have taken most of this pivot.
                 let bid = self.bid(k, pivots.refresh(k, floor));
                 if bid.value >= least {
                     kept.push((k, pivots.bound(k)));
@@ -312,6 +324,7 @@ impl<'a> Contest<'a> {
                 }
             }
         }
+        // A patch without unknowns could not bear any force, however small its pivots are.
         self.complete(&mut kept, &first);
         kept
     }
@@ -327,6 +340,8 @@ impl<'a> Contest<'a> {
                 queue.push(top);
                 break;
             }
+            // Pivots only fall as nodes are kept, so an old value is an upper bound and is updated
+            // only when it leads the queue.
             if !pivots.is_fresh(top.node) {
                 let next = queue.peek().map_or(THETA_0, |bid| bid.value);
                 let floor = next.max(THETA_0) * (1.0 - TIE) / self.factor[top.node as usize];
@@ -345,6 +360,7 @@ impl<'a> Contest<'a> {
             tie.nodes.push(top.node);
         }
         if let Some(tie) = &mut tie {
+            // The queue holds equal bids in no defined order.
             tie.nodes.sort_by_key(|&k| self.rank[k as usize]);
         }
         tie
@@ -404,6 +420,7 @@ fn from_the_middle(interface: &Interface, mass: &CommonMass, candidates: Vec<u32
         high = high.sup(&position(k));
     }
     let middle = moment / weight;
+    // Nodes that mirror each other differ by round-off only; they have to get equal keys.
     let tolerance = SAME_PLACE * (high - low).norm();
     let ranked = |value: &dyn Fn(u32) -> f64| {
         let values: Vec<f64> = candidates.iter().map(|&k| value(k)).collect();
@@ -416,6 +433,8 @@ fn from_the_middle(interface: &Interface, mass: &CommonMass, candidates: Vec<u32
         ranked(&|k| position(k).z),
     ];
     let mut order: Vec<usize> = (0..candidates.len()).collect();
+    // Nodes of both sides at one place differ in nothing but their side, which must not decide by
+    // its name.
     let first = |at: usize| mass.precedence(candidates[at]);
     order.sort_by_key(|&at| (keys.each_ref().map(|key| key[at]), first(at)));
     order.into_iter().map(|at| candidates[at]).collect()

@@ -47,7 +47,7 @@ impl Bounds {
             .norm_squared()
     }
 
-    /// Whether a half-line meets the box.
+    /// Returns whether a half-line meets the box.
     pub fn is_on_ray(&self, origin: &Vec3, direction: &Vec3) -> bool {
         let mut range = [0.0_f64, f64::INFINITY];
         for axis in 0..3 {
@@ -64,7 +64,7 @@ impl Bounds {
         range[0] <= range[1]
     }
 
-    /// Whether the boxes have a point in common.
+    /// Returns whether the boxes have a point in common.
     pub fn meets(&self, other: &Self) -> bool {
         (0..3).all(|axis| self.low[axis] <= other.high[axis] && other.low[axis] <= self.high[axis])
     }
@@ -214,7 +214,7 @@ impl Tree {
         }
     }
 
-    /// Whether any item's box meets `bounds`.
+    /// Returns whether any item's box meets `bounds`.
     pub fn meets(&self, bounds: &Bounds) -> bool {
         !self.meeting(bounds).is_empty()
     }

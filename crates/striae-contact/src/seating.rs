@@ -38,7 +38,7 @@ use crate::{
 /// facets overlaps are longer than the nearest distances that are measured.
 pub const AHEAD: f64 = 1.25;
 
-/// What a facet met at the start.
+/// Opposition of a facet at the start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Met {
     /// The other side, at this mean gap.
@@ -67,14 +67,14 @@ pub struct Seating {
 /// A seating and how much the faces interfere.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fitted {
-    /// What touches.
+    /// Facets that touch initially.
     pub seating: Arc<Seating>,
     /// Interference `i`; negative for a clearance.
     pub interference: f64,
 }
 
 impl Seating {
-    /// That of the configuration at the start.
+    /// Seating of the configuration at the start.
     pub fn new(stage: &Stage) -> Self {
         let start = stage.configuration;
         let compliances = compliances(start);
@@ -133,7 +133,7 @@ impl Seating {
         }
     }
 
-    /// Whether any facets are seated.
+    /// Returns whether no facets are seated.
     pub fn is_empty(&self) -> bool {
         let mut all = self.met.iter().flatten();
         !all.any(|met| matches!(met, Met::Facing(_)))
@@ -198,8 +198,8 @@ impl Seating {
 }
 
 impl Fitted {
-    /// What is added to the gap, in shares of the corners of two facets that sum up to the one at
-    /// a point.
+    /// Offset of the gap, split among the corners of two facets such that the shares sum to the
+    /// offset at a point.
     pub(crate) fn at_corners(&self, paired: &PairedFacets) -> [f64; 8] {
         let Some(gap) = self.seating.gap_of(paired) else {
             return [0.0; 8];
@@ -210,14 +210,14 @@ impl Fitted {
         })
     }
 
-    /// What is added to the gap at a node along its own normal.
+    /// Offset of the gap at a node along its own normal.
     pub(crate) fn at_node(&self, side: Side, node: SurfaceNode) -> f64 {
         let gap = self.seating.gaps[side].get(node.index()).copied().flatten();
         gap.map_or(0.0, |gap| -gap - self.interference)
     }
 }
 
-/// What a facet that faces nothing near lies at.
+/// Classification of a facet that faces nothing near it.
 fn unmet(start: &Configuration, side: Side, facet: FacetId) -> Met {
     if start.plane().is_some() {
         return Met::Apart;

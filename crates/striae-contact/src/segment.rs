@@ -74,7 +74,7 @@ pub struct Facet {
     pub shape: Shape,
 }
 
-/// Whether derivatives are wanted.
+/// Request for derivatives of a segment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Derivatives {
     /// Values only.
@@ -83,12 +83,13 @@ pub enum Derivatives {
     First,
 }
 
-/// Which derivatives a segment is made with.
+/// Derivatives with which a segment is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SegmentDerivatives {
     /// None.
     None,
-    /// Those of the normal and of what pressure does, not of `D`, which friction alone asks for.
+    /// Derivatives of the normal and of the pressure, without those of `D`, which only friction
+    /// needs.
     OfPressure,
     /// All.
     All,
@@ -110,13 +111,13 @@ pub struct Segment {
     pub normal: Vec3,
     /// Area across `n`.
     pub area: f64,
-    /// Which corners and edges the vertices of the polygon come from, as a number.
+    /// Hash of the corners and edges that the vertices of the polygon come from.
     pub topology: u64,
     /// `D_cd`, symmetric.
     pub mass: [[f64; 8]; 8],
-    /// Derivatives, if asked for.
+    /// Derivatives, if requested.
     pub slopes: Option<Box<Slopes>>,
-    /// What it is made of; none against a plane, where it is the whole facet.
+    /// Common polygon; `None` against a plane, where it is the whole facet.
     polygon: Option<Box<Polygon>>,
     /// Share of it that counts, if not all.
     faded: Option<Box<Faded>>,
@@ -159,7 +160,7 @@ pub struct Slopes {
     /// `dn/dx_c`.
     pub normal: [Matrix3<f64>; 8],
     /// `dD_cd/dx`, row [`pair_index`]`(c, d)`, column `3 k + i` for `x_k . e_i`; empty unless all
-    /// derivatives are asked for.
+    /// derivatives are requested.
     pub mass: Vec<[f64; 24]>,
 }
 

@@ -48,24 +48,24 @@ pub struct SegmentRows {
     pub slip_slopes: Vec<[[f64; 9]; 8]>,
 }
 
-/// Whether slip is asked for beside the gap.
+/// Request for slip besides the gap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Slip {
-    /// It is.
+    /// Slip is computed.
     Wanted,
     /// There is no friction.
     Left,
 }
 
-/// What is given of a segment beside its facets.
+/// Inputs of a segment besides its facets.
 #[derive(Clone, Copy, Debug)]
 pub struct Given {
     /// Weights of the facets' normals.
     pub weights: [f64; 2],
-    /// What is added to the gap at the corners, in shares that sum up to the one at a point: the
-    /// overlap of the meshes that is not pressed out yet, or an interference.
+    /// Offsets of the gap at the corners, in shares that sum to the offset at a point: the part of
+    /// an initial overlap of the meshes that is not removed yet, or an interference.
     pub offsets: [f64; 8],
-    /// Whether slip is asked for.
+    /// Request for slip.
     pub slip: Slip,
 }
 
@@ -144,7 +144,7 @@ impl AtCorners {
     }
 }
 
-/// Where the facing points were, and how what was tangential then is turned.
+/// Previous positions of the facing points, and the rotation of what was tangential then.
 struct Moved {
     /// Old or carried positions, from a common origin.
     y: [Vec3; 8],
@@ -152,7 +152,7 @@ struct Moved {
     turn: Matrix3<f64>,
     /// The old normal, for a deformable pair.
     n_old: Option<Vec3>,
-    /// Whether side `b` is a plane, on which the points follow those of side `a`.
+    /// `true` if side `b` is a plane, on which the points follow those of side `a`.
     on_plane: bool,
 }
 
@@ -166,6 +166,8 @@ impl Moved {
         let n = paired.segment.normal;
         let old = |corner: usize| start.side(Side::A).x[paired.corners[0][corner]];
         if configuration.pair.is_rigid() {
+            // Moving the old position with the rigid surface makes slip independent of any rigid
+            // motion of both.
             let carried = |x: Vec3| {
                 let material = start.placement.back(&x);
                 configuration.placement.point(&material)
@@ -184,6 +186,8 @@ impl Moved {
                 on_plane,
             };
         }
+        // Differences from a near point: sums of absolute positions would lose digits far from the
+        // origin.
         let origin = old(0);
         let x: [Vec3; 8] = std::array::from_fn(|d| match d {
             0..4 => old(d),
@@ -196,6 +200,8 @@ impl Moved {
                 shape,
             }
         };
+        // Facets that did not face each other at the start have no common normal then; what is
+        // tangential now is the best substitute.
         let n_old = normal_between(&facet(0), &facet(4), weights).unwrap_or(n);
         let tangential = Matrix3::identity() - n_old * n_old.transpose();
         let turned = Transported::new(&Vec3::zeros(), &n_old, &n);

@@ -1,4 +1,5 @@
-//! Which nodes of a pair carry traction unknowns, and how the others follow them.
+//! Selection of the nodes of a pair that carry traction unknowns, and of the dependence of the
+//! others on them.
 //!
 //! Roles are chosen at the start of an increment, see [`crate::roles`], from the
 //! configuration it starts from and, where that shows too little, the one that it leads to.
@@ -26,12 +27,12 @@ use gathered::Gathered;
 /// Nodes that are kept, by side.
 pub type Kept = [Vec<bool>; 2];
 
-/// Where the roles of nodes come from.
+/// Origin of the roles of nodes.
 #[derive(Clone, Copy)]
 enum Roles<'a> {
-    /// They are chosen, with an advantage for nodes that were kept in the last increment.
+    /// Chosen, with an advantage for nodes that were kept in the last increment.
     After(&'a Kept),
-    /// These nodes are kept.
+    /// Given by the nodes that are kept.
     Given(&'a Kept),
 }
 

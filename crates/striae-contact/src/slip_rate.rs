@@ -1,8 +1,8 @@
 //! Slip rates of the kept nodes, with their derivatives.
 //!
-//! `|v| = |du|/dt` over the time `dt` since the last converged configuration, with the slip
-//! that is seen, without what the ramp adds. Only friction that depends on the slip rate asks
-//! for it: the friction of a node and the row that it obeys ask at the same rate.
+//! `|v| = |du|/dt` over the time `dt` since the last converged configuration, with the slip that is
+//! seen, without what the ramp adds. Only friction that depends on the slip rate needs it: the
+//! friction of a node and the row that it obeys use one rate.
 
 use striae_law::friction::Friction;
 
@@ -11,7 +11,7 @@ use crate::{
     tracked::TrackedScalar,
 };
 
-/// Slip rates by side; zero without derivatives where nothing asks for them.
+/// Slip rates by side; zero without derivatives if nothing depends on them.
 pub type SlipRates = [Vec<TrackedScalar>; 2];
 
 /// Slip rates of all kept nodes, from kinematics without ramps.

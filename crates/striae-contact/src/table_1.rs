@@ -38,7 +38,7 @@ const LEAST: f64 = 0.2;
 /// Gap over the local size at which the inflation is over.
 const CLOSED: f64 = 1e-6;
 
-/// What the labels of an iteration depend on besides the node.
+/// Inputs of the labels of an iteration besides the node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Corrector {
     /// Overshoot `tol_s` of the slip surface at which a node leaves stick.
@@ -67,9 +67,11 @@ impl Inflation {
     /// The inflation of the iteration after one with the largest `gap`, over the local size.
     pub fn after(self, gap: f64) -> Self {
         let first_gap = self.first_gap.unwrap_or(gap);
+        // The formula tends to one without reaching it, and no increment may be accepted before.
         let omega = if gap < CLOSED {
             1.0
         } else {
+            // Never inflated again: friction that shrank and grew by turns would make labels cycle.
             (1.0 / (1.0 + gap / first_gap)).max(self.omega)
         };
         Self {
@@ -78,7 +80,7 @@ impl Inflation {
         }
     }
 
-    /// Whether the slip surface is the true one.
+    /// Returns whether the slip surface is the true one again.
     pub fn is_over(self) -> bool {
         self.omega == 1.0
     }
@@ -95,6 +97,7 @@ impl Corrector {
     pub fn status(&self, before: Status, z: [f64; 2], turned: [f64; 2], radius: f64) -> Status {
         let (z, turned) = (Vector2::from(z), Vector2::from(turned));
         let slips = match before {
+            // Friction opposes slip, so `z` and the slip it belongs to have to point the same way.
             Status::Slip => z.norm() > 0.0 && turned.dot(&z) >= 0.0,
             Status::Stick | Status::Open => z.norm() > (1.0 + self.stick_tolerance) * radius,
         };

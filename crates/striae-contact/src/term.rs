@@ -18,7 +18,7 @@ use crate::places::Places;
 pub struct LocalTerm {
     /// Pair-local unknowns whose equations the rows belong to.
     pub rows: Vec<u32>,
-    /// What the rows state.
+    /// Equations stated by the rows.
     pub fields: Vec<Field>,
     /// Residual of each row.
     pub residual: Vec<f64>,
@@ -28,7 +28,7 @@ pub struct LocalTerm {
     pub tangent: Vec<f64>,
 }
 
-/// What a row states, and the scale of its residual where it has one of its own.
+/// Equation stated by a row, and the scale of its residual if it has one of its own.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Field {
     /// Equilibrium of forces at a node.
@@ -44,14 +44,14 @@ pub enum Field {
 /// A row: the equation it belongs to, what it states and its residual.
 pub type Row = (u32, Field, f64);
 
-/// Where lanes come from.
+/// Source of lanes.
 #[derive(Clone, Copy, Debug)]
 pub enum Source<'a> {
     /// Consecutive unknowns from the first of a triple on.
     Unknowns {
         /// The first of them.
         first: u32,
-        /// How many, one lane each.
+        /// Number of lanes.
         count: usize,
     },
     /// An intermediate vector, three lanes.

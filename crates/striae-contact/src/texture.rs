@@ -52,7 +52,8 @@ pub struct CollapsedTexture {
     pub node: SurfaceNode,
 }
 
-/// Textures of all nodes that the friction law looks at. Nodes that face nothing have any.
+/// Textures of all nodes that the friction law depends on. Nodes that face nothing have arbitrary
+/// ones.
 ///
 /// # Errors
 /// When a convected texture has no direction left.
@@ -123,8 +124,8 @@ pub fn own(
     Ok(Some(tracked(&lanes, &a)))
 }
 
-/// Whether a node with unknowns faces nothing. No position changes its gap then, so it is open
-/// whatever the texture.
+/// Returns whether a node with unknowns faces nothing. Its gap then depends on no position, so it
+/// is open for any texture.
 fn is_beside(
     selection: &Selection,
     kinematics: &[Kinematics],

@@ -57,9 +57,9 @@ pub struct Joined {
 pub struct Apart {
     /// Distance.
     pub gap: f64,
-    /// The same over the size of the larger facet.
+    /// Distance relative to the size of the larger facet.
     pub share: f64,
-    /// Where.
+    /// Position.
     pub place: Vec3,
 }
 
@@ -76,8 +76,8 @@ pub struct FacetRows {
     pub opposite: BTreeMap<SurfaceNode, Vec<f64>>,
 }
 
-/// What two surfaces have in common; facets that are further apart than `within`, or a tenth
-/// of their size, are not tied.
+/// Common segments of two surfaces; facets further apart than `within`, or than a tenth of their
+/// size by default, are not tied.
 pub fn join(configuration: &Configuration, within: Option<f64>) -> Joined {
     let counts = Side::BOTH.map(|side| configuration.side(side).surface.facets().len());
     let compliances = counts.map(|count| vec![1.0; count]);
@@ -148,7 +148,7 @@ fn cover(near: &[PairedFacets], areas: &[Vec<f64>; 2]) -> [Vec<f64>; 2] {
 }
 
 impl Joined {
-    /// Whether nothing is tied.
+    /// Returns whether nothing is tied.
     pub fn is_empty(&self) -> bool {
         self.near.is_empty()
     }

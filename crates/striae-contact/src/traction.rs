@@ -27,7 +27,7 @@ use crate::{
 /// and without friction.
 pub type NodalTractions = [Vec<Tracked>; 2];
 
-/// What tractions depend on at every node.
+/// Quantities that tractions depend on at every node.
 #[derive(Clone, Copy, Debug)]
 pub struct Surroundings<'a> {
     /// Friction law.

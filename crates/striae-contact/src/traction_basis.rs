@@ -25,7 +25,6 @@ use crate::{
     common_mass::CommonMass,
     interface::{Interface, Opponent},
     roles::{Choice, THETA_0},
-    selection::Kept,
     side::Side,
     transfer::{Share, Transfer},
 };
@@ -62,7 +61,7 @@ pub struct Weak {
     pub coefficient: f64,
     /// `R_k` by place among the kept nodes, of sum zero.
     pub row: Vec<(u32, f64)>,
-    /// That for friction, of the same places.
+    /// Row for friction, of the same places.
     pub friction_row: Vec<(u32, f64)>,
 }
 
@@ -101,7 +100,7 @@ impl TractionBasis {
     }
 
     /// Basis of unknowns at given nodes, of which those without an overlap are left out.
-    pub fn with_kept(interface: &Interface, kept: &Kept) -> Self {
+    pub fn with_kept(interface: &Interface, kept: &[Vec<bool>; 2]) -> Self {
         let mass = CommonMass::new(interface);
         let choice = Choice::given(interface, &mass, kept);
         Self::of(interface, &mass, &choice)
@@ -164,6 +163,8 @@ impl TractionBasis {
         let weak = (0..self.kept.len()).filter(|&k| self.pivots[k] < THETA_1);
         let weak = weak.filter_map(|k| {
             let pivot = self.pivots[k];
+            // A node kept by hysteresis may lie below the threshold; its ramp stays finite and
+            // positive.
             let over = (pivot - THETA_0).max(CLOSEST * THETA_0);
             let eps = RAMP * facing(interface, self.kept[k]) * (THETA_1 - pivot) / over;
             let row = departure(place(k)?, &released[k]);
@@ -221,6 +222,8 @@ fn departure(k: u32, released: &[Share]) -> Vec<Share> {
         return row;
     }
     let at = row.partition_point(|&(l, _)| l < k);
+    // The weights add up to zero, so the ramp vanishes on constant tractions and patch tests do not
+    // see it.
     row.insert(at, (k, [-others; 2]));
     row
 }

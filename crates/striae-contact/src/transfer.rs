@@ -1,4 +1,4 @@
-//! Where nodes that are not kept take their traction from.
+//! Transfer of traction to nodes that are not kept.
 //!
 //! ```text
 //! (I - M_TT) Z_T = M_TK,   (I - S_TT) Y_T = S_TK,   S_tj = +-M_tj
@@ -51,6 +51,8 @@ impl Transfer {
         kept.iter().for_each(|&k| is_kept[k as usize] = true);
         let mut taken: Vec<SparseRow> = (0..count as u32)
             .map(|t| {
+                // Also nodes without weight yet: they may cross the edge of a facet within the
+                // increment.
                 if mass.carries[t as usize] {
                     taken(interface, mass, t)
                 } else {
@@ -67,6 +69,7 @@ impl Transfer {
                 taken[t].is_empty()
             };
             if mass.carries[t] && (is_kept[t] && taken[t].is_empty() || !is_kept[t] && alone) {
+                // Without a row of its own the chain would never reach a kept node.
                 taken[t] = nearest(interface, mass, t as u32, kept);
                 is_nearest[t] = true;
             }
@@ -239,6 +242,7 @@ fn tied(mass: &CommonMass, taken: &[SparseRow], is_kept: &[bool]) -> Vec<bool> {
                 let tied = row.iter().filter(|&&(j, _)| tied[j as usize]);
                 tied.map(|(_, value)| value).sum()
             };
+            // A chain that reaches kept nodes with a tiny weight only would amplify round-off.
             if !tied[t] && share(&taken[t]) > TIED {
                 tied[t] = true;
                 fresh.push(t);
@@ -256,6 +260,7 @@ fn nearest(interface: &Interface, mass: &CommonMass, t: u32, kept: &[u32]) -> Sp
         .filter(|&k| patch.is_some() && mass.patch[k as usize] == patch)
         .collect();
     if near.is_empty() {
+        // `t` may be the only kept node of its patch, or in no patch at all.
         near = others().collect();
     }
     let place = mass.node(interface, t).position;
@@ -264,7 +269,9 @@ fn nearest(interface: &Interface, mass: &CommonMass, t: u32, kept: &[u32]) -> Sp
         .iter()
         .map(|&k| distance(k))
         .fold(f64::INFINITY, f64::min);
+    // All equally near nodes share: taking one of them would depend on the numbering.
     near.retain(|&k| distance(k) <= least * (1.0 + EQUALLY_NEAR));
+    // Sums over the row run in a fixed order, so that their last bits are reproducible.
     near.sort_unstable();
     let share = 1.0 / near.len() as f64;
     near.into_iter().map(|k| (k, share)).collect()

@@ -12,7 +12,7 @@ use nalgebra::Matrix3;
 use striae_mesh::Vec3;
 use striae_surface::node::SurfaceNode;
 
-/// Which position unknowns are prescribed, by side, three a node.
+/// Prescribed position unknowns, by side, three a node.
 pub type Prescribed = [Vec<bool>; 2];
 /// Derivatives of a vector: `(first unknown of a triple, d vector / d triple)`. Unknowns of
 /// contact come in triples: positions and tractions.
@@ -27,7 +27,7 @@ pub struct Numbering {
     nodes: [u32; 2],
 }
 
-/// What a pair-local unknown is.
+/// Kind of a pair-local unknown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unknown {
     /// Component of the position of a surface node.
@@ -81,7 +81,7 @@ impl Numbering {
         6 * (self.nodes[0] + self.nodes[1])
     }
 
-    /// What the unknown `number` is.
+    /// Returns the kind of the unknown `number`.
     pub fn unknown(&self, number: u32) -> Unknown {
         let count = self.nodes[0] + self.nodes[1];
         let traction = number >= 3 * count;

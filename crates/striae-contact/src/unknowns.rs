@@ -11,18 +11,18 @@ pub struct Tractions {
     pub nodes: [Vec<[f64; 3]>; 2],
     /// Components of the converged friction traction `tau_n` along the nodal tangents, by side.
     pub tau_n: [Vec<[f64; 2]>; 2],
-    /// Whether each node slipped in the last converged increment, by side.
+    /// `true` for each node that slipped in the last converged increment, by side.
     pub slipped: [Vec<bool>; 2],
-    /// Whether each node stuck in it, by side.
+    /// `true` for each node that stuck in the last converged increment, by side.
     pub stuck: [Vec<bool>; 2],
     /// Closed share of the support of each node at the last converged state, by side, which its
     /// [bedding](crate::bedding) goes by.
     pub bedded: [Vec<f64>; 2],
     /// Slip `sum |du|` of each node up to the last converged state, by side.
     pub accumulated: [Vec<f64>; 2],
-    /// What the iterations so far made of each node, by side; before the first, slip where a
-    /// node slipped in the last increment and else open.
-    /// It counts with a corrector, and where friction decays with the slip rate.
+    /// Labels of the nodes after the iterations so far, by side; before the first iteration, slip
+    /// for nodes that slipped in the last increment and open for all others. They matter with a
+    /// corrector, and where friction falls with the slip rate.
     pub labels: [Vec<Label>; 2],
 }
 
@@ -44,6 +44,7 @@ impl Tractions {
     pub fn accumulate(&mut self, nodes: &[Vec<NodeResult>; 2]) {
         let sums = self.accumulated.iter_mut().flatten();
         for (sum, node) in sums.zip(nodes.iter().flatten()) {
+            // The relative motion of an open node wears nothing.
             if node.status != Status::Open {
                 *sum += node.slip.norm();
             }
@@ -54,6 +55,8 @@ impl Tractions {
     pub fn label(&mut self, nodes: &[Vec<NodeResult>; 2]) {
         let found = || self.labels.iter().flatten().zip(nodes.iter().flatten());
         let slips = |status| status == Status::Slip;
+        // While other nodes begin or cease to slip, a swing of `|du|` may follow from them and says
+        // nothing about this node.
         let rests = found().all(|(label, node)| slips(label.status) == slips(node.status));
         let after = match rests {
             true => Label::after,
@@ -66,20 +69,21 @@ impl Tractions {
     }
 }
 
-/// What the iterations of an increment made of a node.
+/// Label of a node from the iterations of an increment.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Label {
     /// Status in the last iteration.
     pub status: Status,
-    /// How often it has begun to slip.
+    /// Number of times that it has begun to slip.
     pub begun: u32,
     /// `|du|` in the last iteration.
     pub slip: f64,
-    /// Whether `|du|` fell when it last changed, since a node last began or ceased to slip.
+    /// `true` if the last change of `|du|` was a fall, counted from when the node last began or
+    /// ceased to slip.
     pub fell: bool,
-    /// How often `|du|` rose after a fall, since then.
+    /// Number of times that `|du|` rose after a fall, since then.
     pub turns: u32,
-    /// Whether its pressure is known to be zero.
+    /// `true` if its pressure is known to be zero.
     pub apart: bool,
 }
 
@@ -88,7 +92,7 @@ impl Label {
     /// Newton's method closes in on changes by less.
     const CHANGE: f64 = 0.1;
 
-    /// Which rise of `|du|` after a fall is one too many.
+    /// Number of rises of `|du|` after a fall that is one too many.
     const TURNS: u32 = 2;
 
     /// The label after an iteration in which no node began or ceased to slip.
@@ -118,8 +122,9 @@ impl Label {
         }
     }
 
-    /// Whether with this `|du|` slip has gone back and forth.
+    /// Returns whether slip has oscillated, given the new `|du|`.
     pub(crate) fn goes_back_and_forth(&self, slip: f64) -> bool {
+        // Counted exactly, not at least: the node that sticks for this reason may slip again later.
         self.fell && self.rises_to(slip) && self.turns + 1 == Self::TURNS
     }
 
@@ -140,7 +145,7 @@ pub enum Status {
     Slip,
 }
 
-/// What is known of a contact node in one configuration.
+/// Results at a contact node in one configuration.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct NodeResult {
     /// Gap to the other side, as the contact rows see it.
@@ -163,7 +168,7 @@ pub struct NodeResult {
     pub status: Status,
     /// Closed share of the support, by the gap that opens a support at its full bedding.
     pub closed: f64,
-    /// Whether nothing gives a kept node pressure.
+    /// `true` if nothing gives a kept node pressure.
     pub apart: bool,
 }
 

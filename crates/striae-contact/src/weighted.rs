@@ -55,6 +55,7 @@ pub fn kinematics(
     }
     (0..touching.len())
         .into_par_iter()
+        // Each node sums its segments in their order, whichever thread does it.
         .with_min_len(4)
         .map(|k| {
             let kept = selection.kept()[k];
@@ -93,7 +94,7 @@ struct Sum<'a> {
     slip_blocks: Vec<Matrix3<f64>>,
     /// `alpha_ck` of the same nodes.
     alphas: Vec<f64>,
-    /// The same with the normals: how the mean gap over a closed support would change.
+    /// Reaches multiplied by the normals: change of the mean gap over a closed support.
     reaches: Vec<Vec3>,
 }
 
@@ -138,6 +139,8 @@ impl<'a> Sum<'a> {
             .filter(|(_, share)| **share != 0.0)
         {
             let [_, x, y, z] = patch.rows.value[c];
+            // Slips are taken before they are turned: all corners of the segment share one
+            // rotation.
             moved += Vec3::new(x, y, z) * slips[c];
             self.weight += share * patch.rows.areas[c];
             if let Some(of_area) = patch.rows.area_slopes.get(c) {
@@ -229,6 +232,8 @@ impl<'a> Sum<'a> {
     /// The means over the weight of the node: that at the start for the gap, the present one
     /// for the slip.
     fn over(self, start: f64, stiffness: [f64; 2], bedding: f64) -> Kinematics {
+        // The gap row is divided by the weight at the start, a constant: derivatives of the weight
+        // would vanish at the solution anyway.
         let share = 1.0 / start;
         let by_triple = |blocks: &[[f64; 3]], share: f64| -> Gradient {
             let blocks = self.triples.iter().copied().zip(blocks);
@@ -244,6 +249,8 @@ impl<'a> Sum<'a> {
             value: self.weight,
             gradient: by_triple(&self.weight_blocks, 1.0),
         };
+        // The slip of a node that has left the other side is meaningless; dividing by its tiny
+        // weight would make it huge as well.
         let present = if is_gone { start } else { self.weight };
         let slip = self.slip / present;
         let share = 1.0 / present;
@@ -305,7 +312,7 @@ fn add_multiple<const N: usize>(sum: &mut [f64; N], factor: f64, part: &[f64; N]
         .for_each(|(sum, part)| *sum += factor * part);
 }
 
-/// What is reported of every node of both sides.
+/// Values reported for every node of both sides.
 pub fn reports(
     configuration: &Configuration,
     counts: [usize; 2],

@@ -1,5 +1,5 @@
-//! Interference of two sides: what is found, what is not taken for it, and that
-//! it does not depend on sides, numbering and axes.
+//! Interference of two sides: cases that are found and cases that are not, independent of sides,
+//! numbering and axes.
 
 use nalgebra::Rotation3;
 use striae_contact::{

@@ -1,4 +1,4 @@
-//! Bodies inside themselves and others: what is found, and what is not taken for it.
+//! Bodies inside themselves and others: cases that are found and cases that are not.
 
 use nalgebra::Rotation3;
 use proptest::prelude::*;

@@ -34,7 +34,7 @@ macro_rules! table {
         $(#[doc = $doc])+
         #[derive(Clone, Debug)]
         pub(crate) struct $name {
-            /// Where the table stands.
+            /// Location of the table.
             #[allow(dead_code)]
             pub(crate) span: $crate::faults::Span,
             $($(#[doc = $key_doc])+ pub(crate) $key: table!(@field $need $type),)*

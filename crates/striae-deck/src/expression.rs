@@ -69,7 +69,7 @@ impl<'t> Reader<'t, '_> {
             match self.next_letter() {
                 Some('*') => value *= self.after(Self::signed)?,
                 Some('/') => match self.after(Self::signed)? {
-                    0.0 => return Err("it divides by zero".to_owned()),
+                    0.0 => return Err("division by zero".to_owned()),
                     divisor => value /= divisor,
                 },
                 _ => return finite(value),
@@ -120,7 +120,7 @@ impl<'t> Reader<'t, '_> {
         let plain = word.replace('_', "");
         let value = plain
             .parse()
-            .map_err(|_| format!("`{word}` is no number"))?;
+            .map_err(|_| format!("`{word}` is not a number"))?;
         defined(value, || word.to_owned())
     }
 
@@ -202,7 +202,9 @@ impl<'t> Reader<'t, '_> {
 fn finite(value: f64) -> Result<f64, String> {
     match value.is_finite() {
         true => Ok(value),
-        false => Err(format!("it comes to {value}, which is no finite number")),
+        false => Err(format!(
+            "its value is {value}, which is not a finite number"
+        )),
     }
 }
 
@@ -210,7 +212,7 @@ fn finite(value: f64) -> Result<f64, String> {
 fn defined(value: f64, words: impl FnOnce() -> String) -> Result<f64, String> {
     match value.is_finite() {
         true => Ok(value),
-        false => Err(format!("`{}` is no finite number", words())),
+        false => Err(format!("`{}` is not a finite number", words())),
     }
 }
 
@@ -239,7 +241,7 @@ fn called(name: &str, arguments: &[f64]) -> Result<f64, String> {
         _ => {
             let count = arguments.len();
             return Err(format!(
-                "there is no function `{name}` of {count} numbers; there are {FUNCTIONS}"
+                "unknown function `{name}` of {count} numbers; known functions are {FUNCTIONS}"
             ));
         }
     };
@@ -294,21 +296,21 @@ mod tests {
             ("2 3", "expected an operator, found `3`"),
             ("(2", "expected `)`, found the end"),
             ("2*)", "found `)`"),
-            ("1.2.3", "`1.2.3` is no number"),
+            ("1.2.3", "`1.2.3` is not a number"),
             ("nu", "no `nu`"),
             (
                 "sine(1)",
-                "there is no function `sine` of 1 numbers; there are `sqrt`",
+                "unknown function `sine` of 1 numbers; known functions are `sqrt`",
             ),
-            ("sqrt(1, 2)", "no function `sqrt` of 2 numbers"),
-            ("1/0", "it divides by zero"),
-            ("1/(1/0)", "it divides by zero"),
-            ("1/(1e200*1e200)", "it comes to inf"),
-            ("1/1e999", "`1e999` is no finite number"),
-            ("sqrt(-1)", "`sqrt(-1)` is no finite number"),
-            ("max(1, ln(0))", "`ln(0)` is no finite number"),
+            ("sqrt(1, 2)", "unknown function `sqrt` of 2 numbers"),
+            ("1/0", "division by zero"),
+            ("1/(1/0)", "division by zero"),
+            ("1/(1e200*1e200)", "its value is inf"),
+            ("1/1e999", "`1e999` is not a finite number"),
+            ("sqrt(-1)", "`sqrt(-1)` is not a finite number"),
+            ("max(1, ln(0))", "`ln(0)` is not a finite number"),
             ("(-8)^(1/3)", "`(-8)^("),
-            ("1/0^-1", "`(0)^(-1)` is no finite number"),
+            ("1/0^-1", "`(0)^(-1)` is not a finite number"),
             (&"(".repeat(100_000), "nested too deeply"),
             (&"-".repeat(100_000), "nested too deeply"),
             ("2;", "found `;`"),

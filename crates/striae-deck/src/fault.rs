@@ -1,4 +1,4 @@
-//! What can be wrong with a deck, in the words shown to its author.
+//! Faults of a deck, with the messages shown to its author.
 //!
 //! Faults of what the deck describes are those of the model, [`striae_model::FaultKind`].
 
@@ -8,16 +8,16 @@ pub enum FaultKind {
     /// The file cannot be read at all.
     #[error("the deck cannot be read: {cause}")]
     Unreadable {
-        /// What the operating system says.
+        /// Error of the operating system.
         cause: String,
     },
     /// The bytes are no text.
-    #[error("this is no UTF-8; save the deck as text in UTF-8")]
+    #[error("the deck is not valid UTF-8; save it as text in UTF-8")]
     NotText,
     /// The text is not TOML.
     #[error("not valid TOML: {message}")]
     Syntax {
-        /// What the parser says.
+        /// Message of the parser.
         message: String,
     },
     /// A key that no table of this place has.
@@ -40,7 +40,7 @@ pub enum FaultKind {
     },
     /// A parameter that no expression can name.
     #[error(
-        "`{name}` is no name of a parameter; use letters, digits and `_`, beginning with a letter, and not `pi`"
+        "`{name}` is not a valid parameter name; use letters, digits and `_`, beginning with a letter, and not `pi`"
     )]
     ParameterName {
         /// The name.
@@ -48,7 +48,7 @@ pub enum FaultKind {
     },
     /// A parameter is set that the deck does not have.
     #[error(
-        "`--set {name}=...` sets no parameter of this deck; {}",
+        "`--set {name}=...` does not set a parameter of this deck; {}",
         parameters(known)
     )]
     UnknownParameter {
@@ -59,7 +59,7 @@ pub enum FaultKind {
     },
     /// A path by which a number is set leads nowhere.
     #[error(
-        "`--set {path}=...` sets no number that stands in the deck; {place} has {}{}", or_none(known), did_you_mean(.nearest)
+        "`--set {path}=...` does not set a number of this deck; {place} has {}{}", or_none(known), did_you_mean(.nearest)
     )]
     UnknownPath {
         /// The path.
@@ -73,7 +73,7 @@ pub enum FaultKind {
     },
     /// A path by which a number is set leads to something else.
     #[error(
-        "`--set {path}=...` can only set a number, and `{path}` is {found}{}",
+        "`--set {path}=...` can only set a number, but `{path}` is {found}{}",
         with(known)
     )]
     NoNumber {
@@ -89,7 +89,7 @@ pub enum FaultKind {
     Include {
         /// The file as written.
         file: String,
-        /// Why.
+        /// Reason.
         cause: String,
     },
     /// A part that a mesh file does not have.
@@ -106,7 +106,7 @@ pub enum FaultKind {
     },
     /// A mesh that would take more memory than there is.
     #[error(
-        "the mesh of body `{body}` would have {elements} elements, which take about {:.1} GB in a run, and {:.1} GB are available; use fewer divisions or larger elements",
+        "the mesh of body `{body}` would have {elements} elements and need about {:.1} GB in a run, but only {:.1} GB are available; use fewer divisions or larger elements",
         needed / 1e9, available / 1e9
     )]
     MeshMemory {
@@ -126,7 +126,7 @@ pub enum FaultKind {
         key: String,
         /// The table.
         place: String,
-        /// What its value would be.
+        /// Expected value.
         expected: String,
     },
     /// A value of the wrong type or outside its range.
@@ -134,12 +134,12 @@ pub enum FaultKind {
     Unexpected {
         /// The key and its table.
         place: String,
-        /// What it must be.
+        /// Requirement on the value.
         expected: String,
-        /// What it is.
+        /// Value found.
         found: String,
     },
-    /// A text that is none of the words allowed.
+    /// A text that is not one of the allowed words.
     #[error("{place} cannot be `{found}`; expected one of {}{}", quoted(.allowed), did_you_mean(.nearest))]
     UnknownWord {
         /// The key and its table.
@@ -206,7 +206,7 @@ pub enum FaultKind {
         kind: &'static str,
         /// The set.
         name: String,
-        /// Why, or where the body is.
+        /// Reason, or the extent of the body.
         cause: String,
     },
     /// A set that needs itself.
@@ -234,7 +234,7 @@ pub enum FaultKind {
         facet: usize,
         /// The node it names.
         node: usize,
-        /// How many nodes there are.
+        /// Number of nodes.
         nodes: usize,
     },
     /// Materials of a mesh file that cannot be used.
@@ -242,21 +242,21 @@ pub enum FaultKind {
     FileMaterials {
         /// The body.
         body: String,
-        /// What is wrong.
+        /// Description of the fault.
         cause: String,
     },
     /// A density of what is no solid.
-    #[error("rigid body `{rigid}` has no inertia by its density: {cause}")]
+    #[error("the inertia of rigid body `{rigid}` cannot be computed from its density: {cause}")]
     RigidSolid {
         /// The rigid body.
         rigid: String,
-        /// What is wrong.
+        /// Description of the fault.
         cause: String,
     },
     /// Friction constants that the law refuses.
-    #[error("this friction is not possible: {cause}")]
+    #[error("this friction is not admissible: {cause}")]
     Friction {
-        /// What the law says.
+        /// Message of the law.
         cause: String,
     },
     /// A texture that cannot be read from its file.
@@ -264,7 +264,7 @@ pub enum FaultKind {
     NodalTexture {
         /// The body or rigid surface.
         owner: String,
-        /// What its reader says.
+        /// Message of the reader.
         cause: String,
     },
     /// Two probes have the same name.
@@ -274,11 +274,11 @@ pub enum FaultKind {
         name: String,
     },
     /// A probe is nowhere.
-    #[error("probe `{name}` is nowhere: {cause}")]
+    #[error("probe `{name}` cannot be placed: {cause}")]
     Probe {
         /// Its name.
         name: String,
-        /// What is wrong.
+        /// Description of the fault.
         cause: String,
     },
     /// Two sections have the same name.
@@ -292,7 +292,7 @@ pub enum FaultKind {
     Section {
         /// Its name.
         name: String,
-        /// What is wrong.
+        /// Error of the section.
         cause: striae_solve::section::SectionError,
     },
     /// A deck without bodies or steps.
@@ -300,7 +300,7 @@ pub enum FaultKind {
     Nothing {
         /// `body` or `step`.
         key: &'static str,
-        /// Why one is needed.
+        /// Reason why one is needed.
         need: &'static str,
     },
     /// A solver of a run without ranks that only ranks have.
@@ -308,7 +308,7 @@ pub enum FaultKind {
         "`backend = \"mumps\"` needs PETSc: build with `--features petsc` and run with `--petsc` or under `mpirun`; `backend = \"multifrontal\"` is a direct solver that needs neither"
     )]
     Together,
-    /// What the deck describes is not possible.
+    /// The deck describes an impossible model.
     #[error(transparent)]
     Model(Box<striae_model::FaultKind>),
 }

@@ -31,7 +31,7 @@ pub struct Position {
 pub struct Location {
     /// File as the author calls it.
     pub file: String,
-    /// Where it is in the file.
+    /// Position in the file.
     pub position: Position,
 }
 
@@ -40,9 +40,9 @@ pub struct Location {
 pub struct Fault {
     /// File as the author calls it.
     pub file: String,
-    /// Where it is; `None` where there is no text at all.
+    /// Position in the file; `None` if there is no text at all.
     pub position: Option<Position>,
-    /// What is wrong.
+    /// Kind of fault.
     pub kind: FaultKind,
     excerpt: Option<Excerpt>,
 }

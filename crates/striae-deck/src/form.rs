@@ -40,7 +40,7 @@ pub(crate) enum Bound {
 /// One composition of a table.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Alternative {
-    /// What it describes.
+    /// Description of the key.
     pub(crate) doc: String,
     /// Its keys.
     pub(crate) keys: Vec<Key>,
@@ -55,17 +55,17 @@ pub(crate) struct Key {
     pub(crate) form: Form,
 }
 
-/// Whether a key may be absent.
+/// Necessity of a key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Need {
-    /// It may not.
+    /// The key is required.
     Required,
-    /// It may.
+    /// The key may be absent.
     Optional,
 }
 
 impl Form {
-    /// What to say that is expected, with an article.
+    /// Expected kind of value, with an article.
     pub(crate) fn expected(&self) -> String {
         match self {
             Self::Text => "a text".into(),
@@ -106,7 +106,7 @@ impl Form {
 }
 
 impl Bound {
-    /// Whether a number respects the bound.
+    /// Returns whether a number respects the bound.
     pub(crate) fn admits(self, value: f64) -> bool {
         match self {
             Self::Above(limit) => value > limit,

@@ -22,7 +22,7 @@ const KEY: &str = "include";
 /// Files that a deck includes at most, those of included files counted.
 const MOST: usize = 100;
 
-/// An included file, as it is still to be read.
+/// An included file that is still to be read.
 struct Wanted {
     span: Span,
     name: String,
@@ -38,8 +38,8 @@ pub(crate) fn texts(text: &str, base: &Path, faults: &mut FaultList<'_>) -> Vec<
     while let Some(Wanted { span, name, path }) = wanted.pop() {
         let full = path.canonicalize().unwrap_or_else(|_| path.clone());
         let refused = match known.contains(&full) {
-            true => Some("it is included already".to_owned()),
-            false if known.len() == MOST => Some(format!("{MOST} files are included already")),
+            true => Some("it is already included".to_owned()),
+            false if known.len() == MOST => Some(format!("{MOST} files are already included")),
             false => None,
         };
         let read = match refused {

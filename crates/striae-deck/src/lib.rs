@@ -1,9 +1,9 @@
 //! The deck: one TOML file that describes a whole simulation.
 //!
-//! Reading has two stages. The text becomes the tables of `raw`, in which every
-//! value has its form and its place in the text; these are lowered to the
-//! [`Model`], in which every name has become an id and every set its members.
-//! Both stages go on after a fault, so that [`Faults`] lists all there are.
+//! Reading has two stages. The text becomes the tables of `raw`, in which every value has its form
+//! and its place in the text; these are lowered to the [`Model`], in which every name has become an
+//! id and every set its members. Both stages continue after a fault, so that [`Faults`] lists all
+//! there are.
 //!
 //! [`write()`] goes the other way, from a model to a text that reads back to it, and
 //! [`convert()`] makes a deck of an Abaqus model.
@@ -46,15 +46,15 @@ use toml::de::DeTable;
 /// A deck that has been found valid.
 #[derive(Clone, Debug)]
 pub struct Deck {
-    /// What is to be simulated.
+    /// Model to be simulated.
     pub model: Model,
-    /// What is to be written.
+    /// Output to be written.
     pub output: Output,
-    /// What is made of mesh files that they do not say, a line each.
+    /// Notes on parts of mesh files that were interpreted or replaced, one line each.
     pub notes: Vec<String>,
-    /// Where its named parts are written.
+    /// Locations of its named parts.
     pub places: Places,
-    /// What is wrong with it where there are no ranks.
+    /// Faults of the deck if it is run without ranks.
     together: Option<Box<Faults>>,
 }
 
@@ -62,7 +62,7 @@ impl Deck {
     /// The deck, for a run without ranks.
     ///
     /// # Errors
-    /// When it asks for a solver that only ranks have.
+    /// When it requires a solver that needs ranks.
     pub fn alone(self) -> Result<Self, Faults> {
         match self.together {
             Some(faults) => Err(*faults),
@@ -224,7 +224,7 @@ fn decimals(text: &str, at: usize) -> &'static str {
         four[0] == b' ' && four[1].is_ascii_digit() && four[2] == b',' && four[3].is_ascii_digit()
     });
     match comma {
-        true => "; decimals are written with a point, such as 0.3",
+        true => "; write decimals with a point, such as 0.3",
         false => "",
     }
 }

@@ -23,7 +23,7 @@ const ROUND_OFF: f64 = 1e-13;
 /// Parameters that are computed over one another.
 const LONGEST: usize = 50;
 
-/// How a parameter is given.
+/// Kind of value given for a parameter.
 enum Given {
     Value(f64),
     Expression(String),
@@ -202,12 +202,12 @@ impl Parameters {
         }
         if self.over.len() == LONGEST {
             return Err(format!(
-                "`{name}` is computed over more than {LONGEST} others"
+                "`{name}` depends on a chain of more than {LONGEST} others"
             ));
         }
         let value = match given {
             Given::Value(value) => Ok(*value),
-            Given::Nothing => Err(format!("parameter `{name}` is no number")),
+            Given::Nothing => Err(format!("parameter `{name}` is not a number")),
             Given::Expression(text) => {
                 let text = text.clone();
                 self.over.push(name.to_owned());

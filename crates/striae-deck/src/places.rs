@@ -19,7 +19,7 @@ pub enum Part {
     Step,
 }
 
-/// Where the named parts of a deck are written.
+/// Locations of the named parts of a deck.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Places(BTreeMap<(Part, String), Location>);
 
@@ -28,7 +28,7 @@ impl Places {
         Self(all.map(|(part, name, at)| ((part, name), at)).collect())
     }
 
-    /// Where a part of that name is, the first kind first.
+    /// Location of a part of that name, the first kind first.
     pub fn of(&self, kinds: &[Part], name: &str) -> Option<&Location> {
         let mut kinds = kinds.iter();
         kinds.find_map(|part| self.0.get(&(*part, name.to_owned())))

@@ -33,13 +33,13 @@ pub(crate) trait Read: Sized {
 
 /// A type that is read from some keys of a table.
 pub(crate) trait Part: Sized {
-    /// Takes its keys from the table, or `None` after faults that leave nothing to go on with.
+    /// Takes its keys from the table, or `None` after faults that leave nothing to continue with.
     fn part(table: &mut TableReader<'_, '_, '_>) -> Option<Self>;
     /// The compositions the keys may have.
     fn alternatives() -> Vec<Alternative>;
 }
 
-/// Where a value stands: a key of a table.
+/// Location of a value: a key of a table.
 #[derive(Clone, Debug)]
 pub(crate) struct Place {
     table: String,
@@ -97,7 +97,7 @@ pub(crate) struct TableReader<'r, 'i, 's> {
     pub(crate) faults: &'r mut FaultList<'s>,
 }
 
-/// Reads a whole table; keys that nothing asked for are faults.
+/// Reads a whole table; keys that were not requested are faults.
 pub(crate) fn read_table<T: Part>(
     value: &Value<'_>,
     place: &Place,
@@ -153,7 +153,7 @@ pub(crate) fn unexpected<T>(
 }
 
 impl TableReader<'_, '_, '_> {
-    /// Where the table stands.
+    /// Location of the table.
     pub(crate) fn span(&self) -> Span {
         self.span.clone()
     }
@@ -192,7 +192,7 @@ impl TableReader<'_, '_, '_> {
         self.known.extend(key_names(alternatives));
     }
 
-    /// Which of several exclusive groups of keys is present.
+    /// Group of keys that is present, out of several exclusive ones.
     pub(crate) fn choose(&mut self, groups: &[Vec<Alternative>]) -> Option<usize> {
         let present: Vec<(usize, &str)> = groups
             .iter()
@@ -316,7 +316,7 @@ fn leading(group: &[Alternative]) -> String {
     ticked(common).replace(", ", " and ")
 }
 
-/// What to do about a table where a list of tables is expected.
+/// Remedy for a table where a list of tables is expected.
 fn remedy(value: &DeValue<'_>, place: &Place, form: &Form) -> String {
     match (value, form) {
         (DeValue::Table(_), Form::List(of, _)) if matches!(**of, Form::Table(_)) => {

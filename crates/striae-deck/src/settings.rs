@@ -76,9 +76,9 @@ impl FromStr for Setting {
                 "expected NAME=VALUE, such as `E=2e6`, found `{text}`"
             ));
         };
-        let no_name = |name: &str| Err(format!("`{name}` stands for no number here"));
+        let no_name = |name: &str| Err(format!("`{name}` does not refer to a number here"));
         let found = evaluated(value, &mut |name| no_name(name))
-            .map_err(|cause| format!("`{value}` is no number: {cause}"))?;
+            .map_err(|cause| format!("`{value}` is not a number: {cause}"))?;
         Ok(Self::new(name.trim(), found))
     }
 }
@@ -113,8 +113,8 @@ pub(crate) fn note(settings: &[Setting]) -> Option<String> {
     (!paths.is_empty()).then(|| format!("set: {}", paths.join(", ")))
 }
 
-/// A parameter, or the number of a path, in tables without expressions; what is not there is a
-/// fault.
+/// Value of a parameter, or of the number at a path, in tables without expressions; a missing
+/// number is a fault.
 pub(crate) fn number(tree: &DeTable<'_>, name: &str, faults: &mut FaultList<'_>) -> Option<f64> {
     let path = match Setting::new(name, 0.0).parameter() {
         Some(parameter) => format!("{TABLE}.{parameter}"),
@@ -123,12 +123,12 @@ pub(crate) fn number(tree: &DeTable<'_>, name: &str, faults: &mut FaultList<'_>)
     finite(found(tree, &path, faults)?.get_ref())
 }
 
-/// Where the number of a path stands; what is not there is a fault.
+/// Location of the number at a path; a missing number is a fault.
 fn at(tree: &DeTable<'_>, path: &str, faults: &mut FaultList<'_>) -> Option<Span> {
     found(tree, path, faults).map(toml::Spanned::span)
 }
 
-/// The number of a path; what is not there is a fault.
+/// Number at a path; a missing number is a fault.
 fn found<'t, 'i>(
     tree: &'t DeTable<'i>,
     path: &str,

@@ -126,7 +126,7 @@ fn strains_have_their_axes() {
 fn what_leaves_nothing_of_a_length_is_refused() {
     let gone = |of: &str, factor: &str| {
         format!(
-            "step `first` actuates {of}: its lengths at rest would change by the factor {factor}, and nothing would be left of them; strains, all kinds together and with the values of their curves, must stay above -1"
+            "step `first` actuates {of}: its lengths at rest would change by the factor {factor} and vanish; strains, all kinds together and with the values of their curves, must stay above -1"
         )
     };
     for (stated, of, factor) in [
@@ -171,7 +171,7 @@ fn what_makes_no_sense_is_told_with_its_remedy() {
         ),
         (
             r#"{ body = "bar", stretch = 0.1 }, { body = "bar", section = "right", strain = [0, 0, 0, 0, 0, 0] }"#,
-            "step `first` actuates section `right` of body `bar`: this kind of actuation is stated twice; leave one of them out",
+            "step `first` actuates section `right` of body `bar`: this kind of actuation is stated twice; remove one of them",
         ),
         (
             r#"{ body = "bar", section = "left", stretch = 0.1 }"#,
@@ -183,7 +183,7 @@ fn what_makes_no_sense_is_told_with_its_remedy() {
         ),
         (
             r#"{ body = "bar", strain = [0, 0, 0, 0, 0, 0], axes = [[1, 0, 0], [2, 0, 0]] }"#,
-            "the axes of a strain, and what is left of the second beside the first, must not be the zero vector",
+            "the axes of a strain, and the part of the second normal to the first, must not be the zero vector",
         ),
     ] {
         assert_eq!(told(stated, ""), [expected], "{stated}");

@@ -149,7 +149,7 @@ fn what_cannot_be_used_is_named_where_the_deck_asks_for_it() {
     for (cards, cause) in [
         (
             "",
-            "it gives no element set a material, as *SOLID SECTION of Abaqus does",
+            "it assigns no material to an element set, as *SOLID SECTION of Abaqus does",
         ),
         (
             "*SOLID SECTION, ELSET=Left, MATERIAL=foam\n",

@@ -381,7 +381,7 @@ fn statements_that_contradict_each_other_are_named() {
     assert_eq!(
         faults(&three),
         [
-            "`between` 1 and 3 both name tread and road, and neither is narrower; leave one of them out, or give it facet sets, such as `body.set`"
+            "`between` 1 and 3 both name tread and road, and neither is narrower; remove one of them, or give it facet sets, such as `body.set`"
         ]
     );
     let crossed =
@@ -389,7 +389,7 @@ fn statements_that_contradict_each_other_are_named() {
     assert_eq!(
         faults(&crossed),
         [
-            "`between` 1 and 2 both name tread.zmin and carcass.xmin, and neither is narrower; leave one of them out, or give it facet sets, such as `body.set`"
+            "`between` 1 and 2 both name tread.zmin and carcass.xmin, and neither is narrower; remove one of them, or give it facet sets, such as `body.set`"
         ]
     );
     let decided = crossed + &between("tread.zmin", "carcass.xmin");
@@ -399,7 +399,7 @@ fn statements_that_contradict_each_other_are_named() {
     assert_eq!(
         faults(&excluded),
         [
-            "`exclude` 1 and `between` 1 both name tread and road, and neither is narrower; leave one of them out, or give it facet sets, such as `body.set`"
+            "`exclude` 1 and `between` 1 both name tread and road, and neither is narrower; remove one of them, or give it facet sets, such as `body.set`"
         ]
     );
     let painted = format!(
@@ -408,7 +408,7 @@ fn statements_that_contradict_each_other_are_named() {
     assert_eq!(
         faults(&painted),
         [
-            "`surface` 1 and 2 paint the same facets, of tread.zmin and tread.zmin, and neither is narrower; leave one of them out, or give it another facet set"
+            "`surface` 1 and 2 paint the same facets, of tread.zmin and tread.zmin, and neither is narrower; remove one of them, or give it another facet set"
         ]
     );
 }
@@ -417,7 +417,7 @@ fn statements_that_contradict_each_other_are_named() {
 fn statements_about_nothing_are_named() {
     let nothing = |what: &str| {
         format!(
-            "{what} names nothing that can touch: named pairs and ties keep their facets, and rigid surfaces do not touch each other; leave it out, or name other surfaces"
+            "{what} names nothing that can touch: named pairs and ties keep their facets, and rigid surfaces do not touch each other; remove it, or name other surfaces"
         )
     };
     let excluded = |labels: &str| faults(&format!("[contact]\nall = true\nexclude = [{labels}]"));
@@ -494,7 +494,7 @@ fn keys_are_judged() {
         ]
     );
     for (key, what) in [
-        ("stabilise = true", "holds the body nowhere"),
+        ("stabilise = true", "does not restrain the body"),
         ("enforcement = \"collocated\"", "is not collocated"),
         ("interference = 0.1", "has no `interference`"),
     ] {

@@ -79,7 +79,7 @@ fn faults_of_fibres_are_named_where_they_are() {
         (
             RUBBER,
             format!("{{ k1 = 2, k2 = 3, dispersion = 0.4, {along} }}"),
-            "deck.toml:7:10: the material is not admissible: `dispersion` of family 0 is 0.4, it must be from 0 to 1/3",
+            "deck.toml:7:10: the material is not admissible: `dispersion` of family 0 is 0.4, but it must be from 0 to 1/3",
         ),
         (
             RUBBER,
@@ -94,12 +94,12 @@ fn faults_of_fibres_are_named_where_they_are() {
         (
             "law = \"linear-elastic\"\nyoungs_modulus = 1\npoissons_ratio = 0.3",
             format!("{{ modulus = 2, {along} }}"),
-            "deck.toml:7:10: the material is not admissible: fibres need a neo-Hookean solid or rubber that does not relax around them, not one that is linear elastic",
+            "deck.toml:7:10: the material is not admissible: fibres need a neo-Hookean solid or rubber without relaxation around them, not a solid that is linear elastic",
         ),
         (
             RUBBER,
             String::new(),
-            "deck.toml:7:10: the material is not admissible: there is no family of fibres, at least one is needed",
+            "deck.toml:7:10: the material is not admissible: there is no family of fibres, but at least one is needed",
         ),
     ] {
         assert_eq!(told(law, &fibres), [expected]);

@@ -62,7 +62,7 @@ fn a_sound_deck_is_accepted() {
 fn a_body_that_contact_only_pushes_is_named() {
     let words = [
         "deck.toml:20:1: contact can only push body `lower` along -z in step `press`",
-        "nothing holds it against that",
+        "nothing resists this motion",
         "the contact of `joint`",
     ];
     refused(&[[LOWER, ""]], &words);
@@ -91,7 +91,7 @@ fn a_pressure_of_the_wrong_sign_is_named() {
         &[[UPPER, held], ["name = \"press\"", &pulled]],
         &[
             "contact can only push body `upper` along +z",
-            "pull it the same way, away from the contact of `joint`, with a force of 1.000e1",
+            "pull it in the same direction, away from the contact of `joint`, with a force of 1.000e1",
             "a positive pressure presses",
         ],
     );
@@ -206,7 +206,7 @@ fn pieces_that_nothing_holds_are_named() {
             ["name = \"press\"", "name = \"press\"\nincrements = 2"],
         ],
         &[
-            "for the piece of 8 nodes with node 0 at (5.000000, 5.000000, 10.000000) nothing holds it in step `press`",
+            "for the piece of 8 nodes with node 0 at (5.000000, 5.000000, 10.000000) nothing restrains it in step `press`",
             "4 of its nodes lie on nodes of another piece: merge coincident nodes",
         ],
     );
@@ -248,7 +248,7 @@ fn facing_is_judged_before_overlap() {
         ]],
         &[
             "deck.toml:16:8: pair `joint`: the surface of `",
-            "looks away from that of `",
+            "faces away from that of `",
             "Name the facets that face each other",
         ],
     );
@@ -291,10 +291,7 @@ fn a_curved_tool_turned_inside_out_is_named() {
     };
     assert_eq!(with(&facets[0]), None);
     let found = with(&facets[1]).expect("a fault");
-    for words in [
-        "looks away from that of",
-        "Turn the facets of `roller` round",
-    ] {
+    for words in ["faces away from that of", "Reverse the facets of `roller`"] {
         assert!(found.contains(words), "{found}");
     }
     assert!(!found.contains("inside"), "no talk of overlap: {found}");
@@ -314,7 +311,7 @@ fn textures_without_a_direction_name_node_cause_and_remedy() {
     let found = with("{ uniform = [0, 0, 1] }").expect("a fault");
     for words in [
         "deck.toml:17:50: pair `joint`: the texture of body `lower` has no direction at node ",
-        "along the normal of the surface there; choose a direction that lies in the surface",
+        "normal to the surface there; choose a direction with a tangential part",
     ] {
         assert!(found.contains(words), "{found}");
     }
@@ -343,7 +340,7 @@ fn textures_of_planes_are_judged_where_the_body_is() {
     };
     let found = with("{ uniform = [0, 0, 1] }").expect("a fault");
     assert!(
-        found.contains("it is along the normal of the surface there"),
+        found.contains("it is normal to the surface there"),
         "{found}"
     );
     let circles = "{ circumferential = { point = [10, 10, 0], direction = [0, 0, 1] } }";

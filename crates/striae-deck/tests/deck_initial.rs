@@ -165,7 +165,11 @@ fn an_overlap_that_closing_leaves_has_another_remedy() {
     assert!(matches!(left, InitialFault::Overlap { .. }), "{left}");
     let said = left.to_string();
     assert!(!said.contains("set `initial = \"close\"`"), "{said}");
-    for remedy in ["It is left after", "`initial = \"resolve\"`", "refine"] {
+    for remedy in [
+        "The overlap remains after",
+        "`initial = \"resolve\"`",
+        "refine",
+    ] {
         assert!(said.contains(remedy), "{said}");
     }
     // The remedies help.
@@ -238,9 +242,5 @@ displacement = [{{ body = "block", nodes = "zmax", x = 0, y = 0, z = -0.3 }}]
     assert!(parse(&text("[0, 0, 1]"), "deck.toml", Path::new("")).is_ok());
     let found = fault(parse(&text("[0, 0, -1]"), "deck.toml", Path::new("")));
     assert!(matches!(found, InitialFault::Behind { .. }), "{found}");
-    assert!(
-        found
-            .to_string()
-            .contains("turn the normal of `floor` round")
-    );
+    assert!(found.to_string().contains("reverse the normal of `floor`"));
 }

@@ -20,37 +20,37 @@ fn constants() {
         (
             "rubber without shear modulus",
             "law = \"mooney-rivlin\"\nc10 = 0.1\nc01 = -0.2\npoissons_ratio = 0.49",
-            "2:1: the material is not admissible: the constants give the shear modulus -0.2 at rest, it must be positive",
+            "2:1: the material is not admissible: the constants give the shear modulus -0.2 at rest, but it must be positive",
         ),
         (
             "rubber without terms",
             "law = \"ogden\"\nterms = []\nbulk_modulus = 10",
-            "2:1: the material is not admissible: the law has no term, it needs at least one",
+            "2:1: the material is not admissible: the law has no term, but it needs at least one",
         ),
         (
             "an exponent of zero",
             "law = \"ogden\"\nterms = [{ mu = 1, alpha = 2 }, { mu = 1, alpha = 0 }]\nbulk_modulus = 10",
-            "2:1: the material is not admissible: `alpha` of term 1 is 0, it must be positive or negative",
+            "2:1: the material is not admissible: `alpha` of term 1 is 0, but it must be positive or negative",
         ),
         (
             "chains that are locked at rest",
             "law = \"arruda-boyce\"\nmu = 1\nlocking_stretch = 1\nbulk_modulus = 10",
-            "2:1: the material is not admissible: `locking_stretch` is 1, it must be above 1",
+            "2:1: the material is not admissible: `locking_stretch` is 1, but it must be above 1",
         ),
         (
             "branches that are none",
             "law = \"gent\"\nshear_modulus = 1\nlimit = 30\nbulk_modulus = 10\nrelaxation = []",
-            "8:14: the material is not admissible: there is no branch, at least one is needed",
+            "8:14: the material is not admissible: there is no branch, but at least one is needed",
         ),
         (
             "saturation below the yield stress",
             "law = \"elastic-plastic\"\nyoungs_modulus = 1\npoissons_ratio = 0.3\nyield_stress = 2\nsaturation = { stress = 1, rate = 1 }",
-            "2:1: the material is not admissible: the stress of saturation is 1, it must be at least `yield_stress`, 2",
+            "2:1: the material is not admissible: the saturation stress is 1, but it must be at least `yield_stress`, 2",
         ),
         (
             "a table of hardening that falls",
             "law = \"elastic-plastic\"\nyoungs_modulus = 1\npoissons_ratio = 0.3\nyield_table = [[0, 2], [0.1, 1]]",
-            "2:1: the material is not admissible: pair 1 of the table: its plastic strain must be larger than that before, its stress positive and not smaller",
+            "2:1: the material is not admissible: pair 1 of the table: its plastic strain must be larger than the previous one, its stress positive and not smaller than the previous one",
         ),
     ] {
         let base = "law = \"neo-hookean\"\nyoungs_modulus = 1e6\npoissons_ratio = 0.3";
@@ -63,7 +63,7 @@ fn constants() {
             r#"law = "two-textures", mu = 0.3, c_mag = 0, c_ang = -1, c_cen = 0"#,
         )],
         &[
-            "22:12: this friction is not possible: friction would create energy: textures with a_a . a_b' = I0 = 1.000000 and slip with a_ba . d = I1 = 2.000000 give a dissipation -tau . d / varpi = -7.000000",
+            "22:12: this friction is not admissible: friction would create energy: textures with a_a . a_b' = I0 = 1.000000 and slip with a_ba . d = I1 = 2.000000 give a dissipation -tau . d / varpi = -7.000000",
         ],
     );
     misstated(
@@ -73,7 +73,7 @@ fn constants() {
             r#"law = "tabulated", angles = [0, 90, 270, 360], mu = [0.3, 0.2, 0.2, 0.3]"#,
         )],
         &[
-            "22:12: this friction is not possible: angles from 0.000 to 360.000 degrees are refused: they must span less than a turn, after which the table repeats",
+            "22:12: this friction is not admissible: angles from 0.000 to 360.000 degrees are refused: they must span less than a turn, after which the table repeats",
         ],
     );
     misstated(
@@ -83,29 +83,29 @@ fn constants() {
             r#"law = "tabulated", angles = [0, 180, 90], mu = [0.3, 0.2, 0.2]"#,
         )],
         &[
-            "22:12: this friction is not possible: the angle 90.000 degrees after 180.000 degrees is refused: the angles of a table must ascend",
+            "22:12: this friction is not admissible: the angle 90.000 degrees after 180.000 degrees is refused: the angles of a table must ascend",
         ],
     );
     let dependences = [
         (
             "a logarithm that lets friction vanish",
             r#"by_slip_rate = { form = "logarithm", factor = -0.5, slip_rate = 1 }"#,
-            "22:56: this friction is not possible: factor = -0.5 lets friction vanish at the slip rate 6.389056: a factor below zero needs a limit below that rate, from which on friction is constant",
+            "22:56: this friction is not admissible: factor = -0.5 lets friction vanish at the slip rate 6.389056: a factor below zero needs a limit below that rate, from which on friction is constant",
         ),
         (
             "a table by pressure that does not ascend",
             r#"by_pressure = { form = "table", pressures = [0, 2, 2], factors = [1, 1, 1] }"#,
-            "22:55: this friction is not possible: pressures: 2 after 2 is refused: they must ascend",
+            "22:55: this friction is not admissible: pressures: 2 after 2 is refused: they must ascend",
         ),
         (
             "a table by slip rate with a factor too few",
             r#"by_slip_rate = { form = "table", slip_rates = [0, 2], factors = [1] }"#,
-            "22:56: this friction is not possible: the table has slip_rates: 2, but factors: 1; as many of both are needed, at least two",
+            "22:56: this friction is not admissible: the table has slip_rates: 2, but factors: 1; it needs equally many of both, at least two",
         ),
         (
             "a decay in two places",
             r#"decay = { kinetic_over_static = 0.5, slip_rate = 1 }, by_slip_rate = { form = "stribeck", kinetic_over_static = 0.5, slip_rate = 1 }"#,
-            "22:110: this friction is not possible: it has both `decay` and `by_slip_rate`; give either, a decay with more constants is `by_slip_rate = { form = \"stribeck\", .. }`",
+            "22:110: this friction is not admissible: it has both `decay` and `by_slip_rate`; give one of them; a decay with more constants is `by_slip_rate = { form = \"stribeck\", .. }`",
         ),
     ];
     for (what, keys, expected) in dependences {
@@ -160,7 +160,9 @@ fn rigid_bodies() {
     misstated(
         "density of a plane",
         &[(floor, &format!("{floor}\ndensity = 2"))],
-        &["18:11: rigid body `floor` has no inertia by its density: only a `mesh` has an inside"],
+        &[
+            "18:11: the inertia of rigid body `floor` cannot be computed from its density: only a `mesh` encloses a volume",
+        ],
     );
     misstated(
         "density of an open surface",
@@ -169,7 +171,7 @@ fn rigid_bodies() {
             &format!("{}\ndensity = 2", TETRAHEDRON.replace("[1, 2, 3, 3], ", "")),
         )],
         &[
-            "18:11: rigid body `floor` has no inertia by its density: the surface is not closed at the edge from node 2 to node 1; every edge must belong to two facets",
+            "18:11: the inertia of rigid body `floor` cannot be computed from its density: the surface is not closed at the edge from node 2 to node 1; every edge must belong to two facets",
         ],
     );
     misstated(
@@ -214,7 +216,7 @@ fn inertia() {
             "duration = 2.0\nvelocity = [{ body = \"upper\", vector = [1, 0, 0] }]\n",
         )],
         &[
-            "29:13: step `press` states a velocity but has no inertia; give it `dynamics = {}` or take the velocity out",
+            "29:13: step `press` states a velocity but has no inertia; give it `dynamics = {}` or remove the velocity",
         ],
     );
     misstated(
@@ -263,7 +265,7 @@ fn meshes() {
         "mesh too large",
         &[("divisions = [4, 4, 2]", "divisions = [4000, 4000, 2000]")],
         &[
-            "10:8: the mesh of body `lower` cannot be made: the mesh would have 32000000000 elements, 20000000 are the most that is made",
+            "10:8: the mesh of body `lower` cannot be made: the mesh would have 32000000000 elements, but the limit is 20000000",
         ],
     );
     misstated(
@@ -396,7 +398,7 @@ b = { rigid = "floor" }"#,
             r#"b = { body = "lower", facets = "all" }"#,
         )],
         &[
-            "18:1: pair `interface` has 16 facets of body `lower` on both sides; give its sides facets of their own, or say `b = \"itself\"` where facets of `a` may touch each other",
+            "18:1: pair `interface` has 16 facets of body `lower` on both sides; give its sides facets of their own, or set `b = \"itself\"` if facets of `a` may touch each other",
         ],
     );
     misstated(
@@ -427,21 +429,21 @@ fn curves() {
         "curve with one point",
         &[("[[0, 0], [0.5, 1], [1, 0]]", "[[0, 0]]")],
         &[
-            "25:10: the points of curve `there-and-back` must rise in their first number from 0 to 1, but there are only 1",
+            "25:10: the first numbers of the points of curve `there-and-back` must ascend from 0 to 1, but there are only 1",
         ],
     );
     misstated(
         "curve that starts late",
         &[("[[0, 0], [0.5, 1], [1, 0]]", "[[0.1, 0], [1, 0]]")],
         &[
-            "25:10: the points of curve `there-and-back` must rise in their first number from 0 to 1, but start at 0.1",
+            "25:10: the first numbers of the points of curve `there-and-back` must ascend from 0 to 1, but start at 0.1",
         ],
     );
     misstated(
         "curve that ends early",
         &[("[[0, 0], [0.5, 1], [1, 0]]", "[[0, 0], [0.9, 0]]")],
         &[
-            "25:10: the points of curve `there-and-back` must rise in their first number from 0 to 1, but end at 0.9",
+            "25:10: the first numbers of the points of curve `there-and-back` must ascend from 0 to 1, but end at 0.9",
         ],
     );
     misstated(
@@ -451,7 +453,7 @@ fn curves() {
             "[[0, 0], [0.5, 1], [0.5, 2], [1, 0]]",
         )],
         &[
-            "25:10: the points of curve `there-and-back` must rise in their first number from 0 to 1, but 0.5 is followed by 0.5",
+            "25:10: the first numbers of the points of curve `there-and-back` must ascend from 0 to 1, but 0.5 is followed by 0.5",
         ],
     );
 }
@@ -557,7 +559,7 @@ b = { rigid = "floor" }"#,
             ),
         ],
         &[
-            "26:1: body `upper` is in no contact pair and nothing holds it in step `press`; prescribe displacements that hold it",
+            "26:1: body `upper` is in no contact pair and nothing restrains it in step `press`; prescribe displacements that restrain it",
         ],
     );
     misstated(
@@ -569,7 +571,7 @@ b = { body = "upper", facets = "zmin" }"#,
 b = { rigid = "floor" }"#,
         )],
         &[
-            "26:1: body `upper` is in no contact pair and 3 rigid motions of it are left free in step `press`; prescribe displacements that hold it",
+            "26:1: body `upper` is in no contact pair and 3 of its rigid motions are free in step `press`; prescribe displacements that restrain it",
         ],
     );
 }
@@ -645,8 +647,8 @@ fn textures() {
             r#"b = { rigid = "floor", texture = { points = [{ at = [0, 0, 0], direction = [1, 0, 0] }] } }"#,
         )],
         &[
-            "21:34: rigid surface `floor` is a plane without nodes, so its texture cannot be given at points or nodes",
-            "26:1: body `upper` is in no contact pair and 3 rigid motions of it are left free in step `press`; prescribe displacements that hold it",
+            "21:34: rigid surface `floor` is a plane and has no nodes, so its texture cannot be given at points or nodes",
+            "26:1: body `upper` is in no contact pair and 3 of its rigid motions are free in step `press`; prescribe displacements that restrain it",
         ],
     );
 }
@@ -690,7 +692,7 @@ node_sets = [{ name = "edge", common = ["xmin", "xmax"] }]"#,
 facet_sets = [{ name = "strip", of = "zmax", from = [0, 0, 0], to = [1, 1, 0.4] }]"#,
         )],
         &[
-            "11:24: facet set `strip` of body `lower` is empty: the body reaches from (0, 0, 0) to (1, 1, 0.5)",
+            "11:24: facet set `strip` of body `lower` is empty: the body extends from (0, 0, 0) to (1, 1, 0.5)",
         ],
     );
 }
@@ -700,7 +702,7 @@ fn sets_that_nothing_is_in() {
     for (sets, message) in [
         (
             r#"node_sets = [{ name = "s", sphere = { centre = [9, 0, 0], radius = 1 } }]"#,
-            "11:23: node set `s` of body `lower` is empty: the body reaches from (0, 0, 0) to (1, 1, 0.5)",
+            "11:23: node set `s` of body `lower` is empty: the body extends from (0, 0, 0) to (1, 1, 0.5)",
         ),
         (
             r#"node_sets = [{ name = "s", from = [0, 0.5, 0], to = [1, 0.25, 1] }]"#,

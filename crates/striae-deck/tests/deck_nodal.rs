@@ -172,14 +172,14 @@ fn broken_nodal_textures_are_explained() {
             r#"body = "block", facets = "zmin", texture = { nodal = "some.csv" }"#,
             [
                 "the texture of body `block`",
-                "some.csv: it gives no vector to node 3 of the mesh",
+                "some.csv: it has no vector for node 3 of the mesh",
             ],
         ),
         (
             cube,
             r#"rigid = "floor", texture = { nodal = "list.csv" }"#,
             [
-                "rigid surface `floor` is a plane without nodes",
+                "rigid surface `floor` is a plane and has no nodes",
                 "at points or nodes",
             ],
         ),

@@ -71,16 +71,16 @@ fn parameters_are_set_from_outside() {
     assert_eq!(
         told(with("l=4")).lines().next(),
         Some(
-            "deck.toml:3:1: `--set l=...` sets no parameter of this deck; its [parameters] are `E`, `L`, `depth`, `n`"
+            "deck.toml:3:1: `--set l=...` does not set a parameter of this deck; its [parameters] are `E`, `L`, `depth`, `n`"
         ),
     );
     for (words, cause) in [
         ("L", "expected NAME=VALUE, such as `E=2e6`, found `L`"),
         (
             "L=much",
-            "`much` is no number: `much` stands for no number here",
+            "`much` is not a number: `much` does not refer to a number here",
         ),
-        ("L=", "`` is no number: expected a number"),
+        ("L=", "`` is not a number: expected a number"),
     ] {
         let found = words.parse::<Setting>().unwrap_err();
         assert!(found.contains(cause), "{found}");
@@ -127,7 +127,7 @@ fn paths_that_lead_to_no_number_are_refused_with_what_is_there() {
     for (setting, message) in [
         (
             "material.ruber.youngs_modulus=1",
-            "`--set material.ruber.youngs_modulus=...` sets no number that stands in the deck; `material` has `rubber`; did you mean `rubber`?",
+            "`--set material.ruber.youngs_modulus=...` does not set a number of this deck; `material` has `rubber`; did you mean `rubber`?",
         ),
         (
             "material.rubber.density=1",
@@ -144,7 +144,7 @@ fn paths_that_lead_to_no_number_are_refused_with_what_is_there() {
         ),
         (
             "material.rubber.law=1",
-            "deck.toml:10:7: `--set material.rubber.law=...` can only set a number, and `material.rubber.law` is the text \"neo-hookean\"",
+            "deck.toml:10:7: `--set material.rubber.law=...` can only set a number, but `material.rubber.law` is the text \"neo-hookean\"",
         ),
         (
             "pair.sole.a=1",
@@ -217,7 +217,7 @@ fn faults_of_expressions_have_their_places() {
         (
             "\"= -depth\"",
             "\"= depth/0\"",
-            "this expression cannot be computed: it divides by zero",
+            "this expression cannot be computed: division by zero",
         ),
         (
             "\"= 3*E\"",
@@ -237,13 +237,17 @@ fn faults_of_expressions_have_their_places() {
         (
             "L = 2",
             "L = true",
-            "deck.toml:6:5: this expression cannot be computed: parameter `L` is no number",
+            "deck.toml:6:5: this expression cannot be computed: parameter `L` is not a number",
         ),
-        ("L = 2", "L = 2\n2nd = 1", "`2nd` is no name of a parameter"),
+        (
+            "L = 2",
+            "L = 2\n2nd = 1",
+            "`2nd` is not a valid parameter name",
+        ),
         (
             "[parameters]",
             "[parameters]\npi = 3",
-            "`pi` is no name of a parameter",
+            "`pi` is not a valid parameter name",
         ),
     ] {
         let found = told(parse(&changed(from, to), "deck.toml", Path::new("")));
@@ -312,7 +316,7 @@ fn included_files_count_as_if_they_stood_in_the_deck() {
     assert!(found.contains(words), "{found}");
     write("parts.toml", "include = \"more/shared.toml\"");
     let found = told(read(&path));
-    assert!(found.contains("it is included already"), "{found}");
+    assert!(found.contains("it is already included"), "{found}");
     write("deck.toml", &deck.replace("more/shared", "none"));
     let found = told(read(&path));
     assert!(

@@ -108,7 +108,7 @@ fn faults_of_sections_are_named_where_they_are() {
         (
             "two sections with one element",
             r#"{ elements = "rest", material = "gum" }, { elements = "middle", material = "steel" }"#,
-            "deck.toml:27:54: element 1 of body `bar` is in two sections, `rest` and `middle`; an element has one material",
+            "deck.toml:27:54: element 1 of body `bar` is in two sections, `rest` and `middle`; each element needs exactly one material",
         ),
         (
             "no such set",

@@ -60,7 +60,7 @@ fn on_body(depth: f64, height: f64, keys: &str) -> String {
 }
 
 /// `F = E A d/L` of bars without lateral strain, however deep they are inside each other and
-/// whatever the distance in which contact is looked for: the linear law knows no large strain.
+/// whatever the search distance: the linear law has no large strains.
 #[test]
 fn force_is_that_of_a_bar_shortened_by_the_overlap() {
     for enforcement in ["weighted", "collocated"] {
@@ -95,7 +95,7 @@ fn what_is_deeper_than_half_the_body_is_refused() {
             "inside `",
             "of the thickness",
             size,
-            "Move the bodies apart",
+            "Separate the bodies",
         ] {
             assert!(said.contains(part), "{part}: {said}");
         }

@@ -90,7 +90,7 @@ fn pressure_is_that_of_lame_whatever_the_meshes() {
     }
 }
 
-/// What counts after the first step is the end of the curve, not its way.
+/// The end of the curve decides after the first step, not its course.
 #[test]
 fn interference_follows_its_curve_and_stays() {
     let straight = format!("interference = {INTERFERENCE}");
@@ -154,5 +154,5 @@ displacement = [{{ body = "block", nodes = "zmax", x = 0, y = 0, z = 0 }}]
     assert!(said.contains("smallest gap is 4.000e-1"), "{said}");
     assert!(said.contains("Set `search_distance`"), "{said}");
     let said = refused(-0.1, "interference = 0.01\ninitial = \"resolve\"");
-    assert!(said.contains("Leave one of them out"), "{said}");
+    assert!(said.contains("Remove one of the settings"), "{said}");
 }

@@ -1,4 +1,4 @@
-//! What is judged of increments, from states made by hand.
+//! Warnings about increments, from states made by hand.
 
 use std::path::Path;
 
@@ -198,7 +198,10 @@ fn a_node_that_friction_pushes_along_its_slip_is_named() {
     assert_eq!((gain.body, gain.node), (1, surface.nodes()[0]));
     let warnings = judged(&problem, &[before.clone(), after.clone()]);
     let gain = warnings.iter().find(|warning| warning.kind == Kind::Gain);
-    assert!(gain.is_some_and(|gain| gain.text.contains("of `upper` along its slip")));
+    assert!(gain.is_some_and(|gain| {
+        gain.text
+            .contains("of `upper` in the direction of its slip")
+    }));
     // Less than a twentieth of a facet is what meshes cannot follow.
     let nodes = after.pairs[0].nodes[1].iter_mut();
     nodes.for_each(|node| node.slip *= 0.1);

@@ -39,7 +39,7 @@ pub struct Actuation {
     pub tensions: Vec<Tension>,
 }
 
-/// A tension that a material has of itself.
+/// An active tension of a material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tension {
     /// Unit vector `a` in the reference configuration.

@@ -30,13 +30,13 @@ pub trait ElementBlock: Debug + Send + Sync {
     /// Kind of the elements.
     fn kind(&self) -> CellKind;
 
-    /// How many elements there are.
+    /// Number of elements.
     fn count(&self) -> usize;
 
     /// Reference volumes that belong to the quadrature points of an element.
     fn weights(&self, at: usize) -> &[f64];
 
-    /// How many quadrature points an element has.
+    /// Number of quadrature points of an element.
     fn points(&self) -> usize;
 
     /// Response of an element, written over an older one of the same kind.
@@ -53,8 +53,8 @@ pub trait ElementBlock: Debug + Send + Sync {
         response: &mut ElementResponse,
     ) -> Result<(), ElementError>;
 
-    /// Rate of the stored energy of an element at given positions by a change of its actuation,
-    /// times that change; its points have come to the variables given.
+    /// Rate of the stored energy of an element at given positions with respect to its actuation,
+    /// times the change of that; the variables of its points are given.
     ///
     /// # Errors
     ///
@@ -81,7 +81,7 @@ pub trait ElementBlock: Debug + Send + Sync {
     /// Angle by which an element is turned on average.
     fn rotation(&self, at: usize, x: &[Vec3]) -> f64;
 
-    /// Cauchy stress at the quadrature points, which have come to the variables given.
+    /// Cauchy stress at the quadrature points, whose variables are given.
     ///
     /// # Errors
     ///
@@ -153,7 +153,7 @@ struct Cells<const N: usize, const Q: usize> {
     /// Of each element.
     formulations: Vec<Formulation>,
     inertia: Inertia<N, Q>,
-    /// What continues values at the points to the corners, by corner.
+    /// Matrix that extrapolates values at the quadrature points to the corners, by corner.
     recovery: [[f64; Q]; N],
     elements: Vec<Reference<N, Q>>,
     /// Of each element, where the deformation gradient of any of them is enhanced.
@@ -187,7 +187,7 @@ impl<const N: usize, const Q: usize> Cells<N, Q> {
         }))
     }
 
-    /// How far volume ratios are taken to their mean.
+    /// Fraction by which volume ratios are averaged.
     fn share(&self, material: &Material) -> f64 {
         match self.kind {
             CellKind::CompositeTetrahedron => composite::share(material),

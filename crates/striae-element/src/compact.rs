@@ -127,7 +127,7 @@ impl<const Q: usize> Compact<Q> {
     }
 }
 
-/// What the gradients are multiplied to.
+/// Factors that multiply the gradients of the shape functions.
 struct Fields<const N: usize, const Q: usize> {
     /// `h`.
     h: Field<N, Q>,

@@ -82,7 +82,7 @@ pub(super) fn reference(
     Ok((Reference { gradients, weights }, volumes))
 }
 
-/// How far the ratio of volumes at the points is taken to their mean.
+/// Fraction by which the volume ratios at the points are averaged.
 pub(super) fn share(material: &Material) -> f64 {
     let LameConstants { lambda, shear } = material.lame_constants();
     let factor = match material {

@@ -51,7 +51,7 @@ impl<const N: usize, const Q: usize> Reference<N, Q> {
     }
 }
 
-/// What makes a [`Deformation`] of deformation gradients.
+/// Input of a [`Deformation`]: deformation gradients with their weights.
 struct Deformed<'a, const Q: usize> {
     gradients: [Matrix3<f64>; Q],
     weights: &'a [f64; Q],

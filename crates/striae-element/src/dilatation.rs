@@ -64,7 +64,7 @@ impl<const N: usize, const Q: usize> Reference<N, Q> {
         }
     }
 
-    /// The same where the `law` answers at a point.
+    /// Adds the response where `law` gives the stress at a point.
     fn dilate_by<T: Tangents<Q>>(
         &self,
         deformation: &Deformation<Q>,
@@ -137,7 +137,7 @@ struct Completion<'a, T, const N: usize, const Q: usize> {
     element: &'a mut ElementResponse,
 }
 
-/// What the mean volume makes of the stresses and tangents of the law.
+/// Stresses and tangents of the law after the volume is replaced by its mean.
 struct Held<const Q: usize> {
     /// `w P`, of which the forces are gathered.
     stresses: Matrices<Q>,

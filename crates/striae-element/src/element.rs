@@ -63,7 +63,7 @@ impl Element<'_> {
         self.block.work(self.at, x, &driven, variables, change)
     }
 
-    /// How many quadrature points it has.
+    /// Number of quadrature points.
     pub fn points(&self) -> usize {
         self.block.points()
     }

@@ -57,7 +57,7 @@ impl Elements {
         self.blocks.iter().map(|(first, block)| (*first, &**block))
     }
 
-    /// How many quadrature points there are.
+    /// Number of quadrature points.
     pub fn points(&self) -> usize {
         let counts = self.blocks.iter();
         let points = counts.map(|(_, block)| block.count() * block.points());

@@ -69,7 +69,7 @@ struct Settled<const Q: usize> {
 }
 
 impl<const Q: usize> Fields<Q> {
-    /// Those of a hexahedron with the reference positions `X`.
+    /// Modes of a hexahedron with the reference positions `X`.
     pub(super) fn new(corners: &[Vec3]) -> Self {
         let shape = CellKind::Hexahedron.shape();
         let jacobian = |at: [f64; 3]| {
@@ -150,7 +150,7 @@ impl<const N: usize, const Q: usize> Reference<N, Q> {
         (0..Q).map(stress).collect()
     }
 
-    /// Enhanced deformation gradients of points that have come to the variables given.
+    /// Enhanced deformation gradients of points with given variables.
     pub(super) fn enhanced_gradients(
         &self,
         fields: &Fields<Q>,

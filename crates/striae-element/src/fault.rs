@@ -1,4 +1,4 @@
-//! What can be wrong with an element.
+//! Errors of elements.
 
 use striae_law::bulk::ResponseError;
 use striae_mesh::ElementId;
@@ -24,8 +24,7 @@ pub enum ElementError {
     },
     /// In the current configuration, beyond what the material allows.
     #[error(
-        "stretched beyond the law of its material: I1 - 3 = {strain:.6e} at Gauss point \
-         {point}, the law ends at {limit:.6e}"
+        "stretched beyond the limit of its material: I1 - 3 = {strain:.6e} at Gauss point {point}, but the law ends at {limit:.6e}"
     )]
     Overstretched {
         /// Local number of the quadrature point.
@@ -37,8 +36,7 @@ pub enum ElementError {
     },
     /// In the current configuration, fibres beyond all measure.
     #[error(
-        "its fibres are stretched beyond their law: their strain is {strain:.6e} at Gauss point \
-         {point}, the law ends at {limit:.6e}"
+        "its fibres are stretched beyond their limit: their strain is {strain:.6e} at Gauss point {point}, but the law ends at {limit:.6e}"
     )]
     OverstretchedFibres {
         /// Local number of the quadrature point.
@@ -58,7 +56,7 @@ pub enum ElementError {
         determinant: f64,
     },
     /// In the current configuration, of an element that is enhanced.
-    #[error("the strain it assumes is not to be found")]
+    #[error("its assumed strain cannot be determined")]
     Unsettled,
 }
 
@@ -68,7 +66,7 @@ pub enum ElementError {
 pub struct ElementFault {
     /// The element.
     pub element: ElementId,
-    /// What is wrong with it.
+    /// Error of this element.
     pub error: ElementError,
 }
 

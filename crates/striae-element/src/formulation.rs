@@ -1,9 +1,9 @@
-//! How elements take up strain.
+//! Formulations of elements.
 
 use serde::Serialize;
 use striae_law::bulk::Material;
 
-/// How the elements of a body take up strain.
+/// Formulation of the elements of a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Formulation {
     /// By displacements alone, all of the deformation gradient at every point. Locks
@@ -21,8 +21,8 @@ pub enum Formulation {
 const LOCKING: f64 = 0.45;
 
 impl Formulation {
-    /// What a material asks for: mean dilatation above a Poisson's ratio of 0.45, and where it
-    /// yields, as plastic flow keeps the volume.
+    /// Formulation suited to a material: mean dilatation above a Poisson's ratio of 0.45 and for
+    /// materials that yield, as plastic flow preserves the volume.
     pub fn suited_to(material: &Material) -> Self {
         if matches!(material, Material::Plastic(_)) {
             return Self::MeanDilatation;

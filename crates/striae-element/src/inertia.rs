@@ -1,4 +1,4 @@
-//! What the mass of elements follows from.
+//! Data from which the mass of elements is integrated.
 
 use super::{
     composite::{self, Parts},
@@ -6,7 +6,7 @@ use super::{
     reference::Reference,
 };
 
-/// What the mass of elements follows from.
+/// Data from which the mass of elements is integrated.
 #[derive(Debug)]
 pub(super) enum Inertia<const N: usize, const Q: usize> {
     /// `N_a` at the quadrature points, by point.

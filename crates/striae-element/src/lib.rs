@@ -21,10 +21,10 @@
 //! Stress-free strain and active tension make an element of a grown reference configuration
 //! (`actuation.rs`).
 //!
-//! [`Elements`] keeps what depends on the reference configuration alone; nothing of it
-//! is found again while iterating. An [`ElementBlock`] knows the numbers of corners and
-//! points of its elements when it is compiled: what is asked of it is dispatched once,
-//! and the sums inside fill the lanes of the processor.
+//! [`Elements`] keeps what depends on the reference configuration alone; none of it is computed
+//! again while iterating. The numbers of corners and points of the elements of an [`ElementBlock`]
+//! are known at compile time: each call is dispatched once, and the sums inside fill the lanes of
+//! the processor.
 //!
 //! A new kind is a file of `striae-mesh/src/cell/`, a line in its table and one in the
 //! table of `block.rs`.

@@ -1,4 +1,4 @@
-//! What an element knows from its reference configuration alone.
+//! Data of an element that depend on its reference configuration only.
 
 use super::{ElementError, rule::Rule};
 use nalgebra::Matrix3;

@@ -20,7 +20,7 @@ pub struct ElementResponse {
     pub stiffness: Stiffness,
     /// Energy that has been dissipated since the last converged state.
     pub dissipated: f64,
-    /// What the quadrature points have come to, one after the other.
+    /// New internal variables of the quadrature points, one point after the other.
     pub variables: Vec<f64>,
 }
 
@@ -28,7 +28,7 @@ pub struct ElementResponse {
 pub(super) type Answer<T> = Result<Response<T>, ResponseError>;
 
 impl ElementResponse {
-    /// Where one of `count` points writes what it has come to.
+    /// Storage for the new state of one of `count` points.
     pub(super) fn present(&mut self, point: usize, count: usize) -> Present<'_> {
         let each = self.variables.len() / count;
         Present {

@@ -1,4 +1,4 @@
-//! What all elements of a kind have in common: interpolation at the quadrature points.
+//! Data shared by all elements of a kind: interpolation at the quadrature points.
 
 use striae_mesh::{CellKind, MAX_POINTS, Vec3};
 
@@ -14,7 +14,7 @@ pub(super) struct Rule<const N: usize, const Q: usize> {
     pub(super) gradients: [[Vec3; N]; Q],
     /// Weights of the points in natural coordinates.
     pub(super) weights: [f64; Q],
-    /// What continues values at the points to the corners, by corner.
+    /// Matrix that extrapolates values at the quadrature points to the corners, by corner.
     pub(super) recovery: [[f64; Q]; N],
 }
 

@@ -15,10 +15,9 @@ use super::{Driven, ElementFault, Elements};
 use nalgebra::Matrix3;
 use striae_mesh::{ElementId, Mesh, Vec3};
 
-/// Cauchy stress at every node of a mesh, whose reference elements are
-/// `reference`, whose current node positions are `positions`; zero at nodes without an
-/// element. `made_of` says what material an element is of, and what variables its
-/// quadrature points have come to.
+/// Cauchy stress at every node of a mesh, whose reference elements are `reference`, whose current
+/// node positions are `positions`; zero at nodes without an element. `made_of` returns the material
+/// of an element and the variables of its quadrature points.
 ///
 /// # Errors
 ///

@@ -1,4 +1,4 @@
-//! What elements make of the tangents at their quadrature points.
+//! Stiffness of elements from the tangents at their quadrature points.
 
 use super::{
     deformation::Deformation,
@@ -10,7 +10,7 @@ use striae_law::bulk::Tangent;
 
 /// Tangents at the quadrature points of an element, in one form or another.
 pub(super) trait Tangents<const Q: usize> {
-    /// What a law answers with.
+    /// Tangent returned by a law.
     type OfLaw;
 
     /// Tangents that are not known yet.

@@ -23,7 +23,7 @@ pub(super) struct ArrowScale {
     pub key: f64,
 }
 
-/// What arrows share their scale by: the unit or, without one, the series.
+/// Group of arrows with a common scale: that of the unit or, without one, of the series.
 pub(super) fn group<'a>(series: &'a Series, unit: &'a str) -> &'a str {
     if unit.is_empty() { &series.name } else { unit }
 }

@@ -14,7 +14,7 @@ pub(super) struct Mapping {
 }
 
 impl Mapping {
-    /// Where a number lies; nowhere if it has no place on the axis.
+    /// Position of a number; `None` if it has no place on the axis.
     pub fn place(&self, number: f64) -> Option<f64> {
         let fraction = match self.scale {
             Scale::Linear => (number - self.first) / (self.last - self.first),
@@ -70,11 +70,11 @@ impl Axis {
         let label = &self.label;
         if !(first.is_finite() && last.is_finite()) || first == last {
             Err(format!(
-                "axis `{label}` cannot reach from {first} to {last}"
+                "axis `{label}` cannot extend from {first} to {last}"
             ))
         } else if self.scale == Scale::Logarithmic && (first <= 0.0 || last <= 0.0) {
             Err(format!(
-                "logarithmic axis `{label}` cannot reach from {first} to {last}"
+                "logarithmic axis `{label}` cannot extend from {first} to {last}"
             ))
         } else {
             Ok((first, last))

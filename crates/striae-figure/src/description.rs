@@ -1,4 +1,4 @@
-//! What a figure shows, as plain values.
+//! Description of a figure, as plain values.
 
 use super::Color;
 
@@ -31,7 +31,7 @@ pub struct Panel {
     pub title: String,
     /// The axes.
     pub frame: Frame,
-    /// What is drawn, back to front.
+    /// Series to be drawn, back to front.
     pub series: Vec<Series>,
 }
 
@@ -44,7 +44,7 @@ pub enum Frame {
         x: Axis,
         /// The axis upwards.
         y: Axis,
-        /// Whether both have one scale.
+        /// Aspect: whether both axes have one scale.
         aspect: Aspect,
     },
     /// Angle counter-clockwise from the right, in radians; radius from the
@@ -55,7 +55,7 @@ pub enum Frame {
     },
 }
 
-/// Whether one unit is as long on both axes.
+/// Aspect of a panel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Aspect {
     /// The panel is filled.
@@ -71,13 +71,13 @@ pub struct Axis {
     pub label: String,
     /// Its unit, may be empty.
     pub unit: String,
-    /// How numbers become lengths.
+    /// Conversion of numbers to lengths.
     pub scale: Scale,
     /// First and last number.
     pub limits: Limits,
 }
 
-/// How numbers become lengths.
+/// Conversion of numbers to lengths.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scale {
     /// In proportion.
@@ -89,7 +89,7 @@ pub enum Scale {
 /// First and last number of an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Limits {
-    /// What the series need, and a little more.
+    /// Range of the series, and a small margin.
     Automatic,
     /// As given.
     Fixed(f64, f64),
@@ -100,14 +100,14 @@ pub enum Limits {
 pub struct Series {
     /// Name in the legend; without a name it is not in the legend.
     pub name: String,
-    /// What is drawn.
+    /// Content of the series.
     pub content: Content,
     /// Its colour; colour maps have their own.
     pub color: Color,
 }
 
-/// What a series draws. Points are `[x, y]`, or `[angle, radius]` in a polar
-/// panel; a point that is not finite interrupts a line.
+/// Content of a series. Points are `[x, y]`, or `[angle, radius]` in a polar panel; a point that is
+/// not finite interrupts a line.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Content {
     /// Points joined by a line, with markers.
@@ -132,7 +132,7 @@ pub enum Content {
     Arrows {
         /// Tails of the arrows.
         origins: Vec<[f64; 2]>,
-        /// What they show.
+        /// Vectors that the arrows show.
         vectors: Vec<[f64; 2]>,
         /// Unit of the vectors.
         unit: String,
@@ -148,7 +148,7 @@ pub enum Content {
     },
 }
 
-/// How the points of a curve are joined.
+/// Connection of the points of a curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Line {
     /// Not at all.

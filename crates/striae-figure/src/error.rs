@@ -1,18 +1,18 @@
-//! Why a figure could not be made.
+//! Errors of figures.
 
 use std::path::PathBuf;
 
 use striae_files::FileError;
 
-/// Why a figure could not be made.
+/// Reason why a figure could not be made.
 #[derive(Debug, thiserror::Error)]
 pub enum FigureError {
-    /// It cannot be drawn as described.
+    /// The figure cannot be drawn as described.
     #[error("figure {}: {cause}", path.display())]
     Description {
         /// The figure.
         path: PathBuf,
-        /// What is wrong with the description.
+        /// Fault of the description.
         cause: String,
     },
     /// A file cannot be written.

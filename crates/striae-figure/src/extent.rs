@@ -13,7 +13,7 @@ use super::shape::{Anchor, Rectangle, Shape};
 /// Height of a title.
 pub(super) const TITLE: f64 = 14.0;
 
-/// Height of a frame over its width, where nothing else asks for another.
+/// Default height of a frame over its width.
 pub(super) const FLATNESS: f64 = 0.7;
 
 /// A panel with the limits of its axes.

@@ -24,7 +24,7 @@ pub(super) const DIGIT_HEIGHT: f64 = 0.729;
 /// backend puts a base line above the place of a text anchored at its bottom.
 pub(super) const BASELINE_LIFT: f64 = 0.2734;
 
-/// What the SVG backend divides sizes by.
+/// Divisor that the SVG backend applies to sizes.
 const BACKEND_SIZE_FACTOR: f64 = 1.24;
 
 static FONT: LazyLock<FontRef<'static>> = LazyLock::new(|| {

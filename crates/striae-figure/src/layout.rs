@@ -1,4 +1,4 @@
-//! Where everything stands on the page.
+//! Layout of the page.
 //!
 //! Frames of one column share left and right edges, those of one row top and
 //! bottom, so the room beside a frame is the most any of its neighbours needs.

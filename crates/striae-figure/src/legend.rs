@@ -25,7 +25,7 @@ pub(super) struct Entry {
 enum Sample {
     Curve(Line, Marker),
     Arrow(f64),
-    /// Room alone, before words that go on from the line above.
+    /// Room alone, before words that continue the line above.
     Blank(f64),
 }
 

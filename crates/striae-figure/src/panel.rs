@@ -1,4 +1,4 @@
-//! What the series of a panel look like on the page.
+//! Appearance of the series of a panel on the page.
 
 use super::arrows::{ArrowScale, arrow, ends, group};
 use super::axis::Mapping;
@@ -25,7 +25,7 @@ pub(super) enum Coordinates {
 }
 
 impl Coordinates {
-    /// Where a point lies, if anywhere.
+    /// Position of a point, if it is in the panel.
     pub fn place(&self, point: [f64; 2]) -> Option<Place> {
         match self {
             Self::Cartesian { x, y } => Some([x.place(point[0])?, y.place(point[1])?]),
@@ -83,7 +83,7 @@ impl Content {
             _ => return Ok(()),
         };
         if polar {
-            Err(format!("{what} have no place in a polar panel"))
+            Err(format!("{what} cannot be drawn in a polar panel"))
         } else if counts[0] != counts[1] {
             Err(format!(
                 "{} {what} where {} are needed",

@@ -86,7 +86,7 @@ pub(super) fn png(page: &Page) -> Result<Vec<u8>, String> {
     encoded(&averaged(&pixels, size), size).map_err(|error| error.to_string())
 }
 
-/// How a backend is given lines: the bitmap one joins wide lines badly.
+/// Strokes passed to a backend: the bitmap one joins wide lines badly.
 #[derive(Clone, Copy, PartialEq)]
 enum Strokes {
     Lines,

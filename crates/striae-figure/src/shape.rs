@@ -5,7 +5,7 @@ use super::color::Rgb;
 /// A place on the page.
 pub(super) type Place = [f64; 2];
 
-/// What is drawn.
+/// Shape to be drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Shape {
     /// An open line.
@@ -31,7 +31,7 @@ pub(super) struct Text {
     pub direction: Direction,
 }
 
-/// Which part of a text stands at its place.
+/// Part of a text that is anchored at its place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Anchor {
     Start,
@@ -39,7 +39,7 @@ pub(super) enum Anchor {
     End,
 }
 
-/// Where a text runs.
+/// Direction of a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Direction {
     Right,
@@ -64,7 +64,7 @@ impl Rectangle {
         self.top + self.height
     }
 
-    /// Whether a place is inside or nearer to it than `margin`.
+    /// Returns whether a place is inside or closer to the shape than `margin`.
     pub fn contains(&self, place: Place, margin: f64) -> bool {
         (self.left - margin..=self.right() + margin).contains(&place[0])
             && (self.top - margin..=self.bottom() + margin).contains(&place[1])
@@ -122,7 +122,7 @@ impl Rectangle {
     }
 }
 
-/// What is left of a polygon where `inside` is not negative.
+/// Part of a polygon where `inside` is not negative.
 fn clip_side(polygon: &[Place], inside: impl Fn(Place) -> f64) -> Vec<Place> {
     let mut kept = Vec::new();
     for (index, &to) in polygon.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Where an axis has ticks, and what stands beside them.
+//! Ticks of an axis, and their labels.
 
 /// The ticks of an axis.
 #[derive(Clone, Debug, PartialEq)]

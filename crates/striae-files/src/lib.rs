@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 
 pub use stems::Stems;
 
-/// Why a file could not be written or read.
+/// Reason why a file could not be written or read.
 #[derive(Debug, thiserror::Error)]
 pub enum FileError {
     /// The file system refused to write.
@@ -21,7 +21,7 @@ pub enum FileError {
     Write {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// Error of the operating system.
         #[source]
         cause: io::Error,
     },
@@ -30,7 +30,7 @@ pub enum FileError {
     Read {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// Error of the operating system.
         #[source]
         cause: io::Error,
     },
@@ -56,7 +56,7 @@ pub fn write_atomically(path: &Path, content: &[u8]) -> Result<(), FileError> {
     })
 }
 
-/// Whether a file of this name is what [`write_atomically`] had not finished when the
+/// Returns whether a file of this name is an incomplete file of [`write_atomically`], left when the
 /// program was killed.
 pub fn is_partial(name: &str) -> bool {
     name.starts_with('.') && name.ends_with(".partial")

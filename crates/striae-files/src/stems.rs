@@ -1,4 +1,4 @@
-//! Names of files made of names that users have given.
+//! File names made from names that users have given.
 //!
 //! A name may hold what no file name may, such as `/`, or lead out of the folder. What
 //! file systems do not take everywhere becomes `%` and the hexadecimal digits of its

@@ -47,15 +47,15 @@ pub enum CellKind {
 /// Geometry of a kind of cell.
 #[derive(Debug)]
 pub struct CellShape {
-    /// What one of them is called.
+    /// Name of one such cell, singular.
     pub name: &'static str,
-    /// What several of them are called.
+    /// Plural of the name.
     pub plural: &'static str,
     /// Natural coordinates of the corners.
     pub corners: &'static [[f64; 3]],
     /// Local corners of every face, outward by the right-hand rule.
     pub faces: &'static [&'static [usize]],
-    /// How many faces a side as mesh files count them is made of.
+    /// Number of faces that form one side in mesh files.
     pub faces_a_side: usize,
     /// A corner and the ends of three edges that meet there, right-handed.
     pub trihedra: &'static [[usize; 4]],
@@ -97,7 +97,7 @@ impl CellKind {
         }
     }
 
-    /// How many corners a cell has.
+    /// Number of corners of a cell.
     pub const fn corner_count(self) -> usize {
         self.shape().corners.len()
     }
@@ -169,12 +169,12 @@ impl CellBlock {
         blocks
     }
 
-    /// How many cells there are.
+    /// Number of cells.
     pub fn len(&self) -> usize {
         self.nodes.len() / self.kind.corner_count()
     }
 
-    /// Whether there is no cell.
+    /// Returns whether there are no cells.
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty()
     }

@@ -1,8 +1,8 @@
-//! What can be wrong with a mesh or with the parameters of a generator.
+//! Errors of meshes and of the parameters of generators.
 
 use crate::{CellKind, ElementId, Face, NodeId};
 
-/// What can be wrong with a mesh or with the parameters of a generator.
+/// Error of a mesh or of the parameters of a generator.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MeshError {
     /// An element names a node that does not exist.
@@ -12,7 +12,7 @@ pub enum MeshError {
         element: ElementId,
         /// The node it names.
         node: NodeId,
-        /// How many nodes there are.
+        /// Number of nodes of the mesh.
         nodes: usize,
     },
     /// An element names one node at two corners.
@@ -50,7 +50,7 @@ pub enum MeshError {
         set: String,
         /// The node it names.
         node: NodeId,
-        /// How many nodes there are.
+        /// Number of nodes of the mesh.
         nodes: usize,
     },
     /// An element set names an element that does not exist.
@@ -60,7 +60,7 @@ pub enum MeshError {
         set: String,
         /// The element it names.
         element: ElementId,
-        /// How many elements there are.
+        /// Number of elements of the mesh.
         elements: usize,
     },
     /// A facet set names a face that is not on the boundary or does not exist.
@@ -77,7 +77,7 @@ pub enum MeshError {
          with a Jacobian determinant of {determinant:.3e}"
     )]
     Inverted {
-        /// How many elements.
+        /// Number of such elements.
         count: usize,
         /// The first of them.
         element: ElementId,
@@ -91,33 +91,33 @@ pub enum MeshError {
         name: &'static str,
         /// Its value.
         value: f64,
-        /// What it has to be, as the end of a sentence.
+        /// Requirement on the value, phrased to end a sentence.
         requirement: &'static str,
     },
     /// A capped block that has no height left at its corners.
     #[error(
-        "height is {height}, but must be more than {rise:.6}, the rise of the cap at the corners; make the block higher, smaller in plan, or the radius larger"
+        "height is {height}, but must be more than {rise:.6}, the rise of the cap at the corners; make the block higher or smaller in plan, or the radius larger"
     )]
     CapRise {
         /// Its height.
         height: f64,
-        /// How far the cap rises there.
+        /// Rise of the cap there.
         rise: f64,
     },
     /// More elements than a generator makes.
-    #[error("the mesh would have {elements} elements, {most} are the most that is made")]
+    #[error("the mesh would have {elements} elements, but the limit is {most}")]
     TooLarge {
-        /// How many elements there would be.
+        /// Number of elements that the mesh would have.
         elements: u128,
-        /// How many there may be.
+        /// Largest number allowed.
         most: u128,
     },
     /// A list of interval lengths that does not fit the number of divisions.
     #[error("{lengths} interval lengths are given for {divisions} divisions")]
     IntervalCount {
-        /// How many lengths are given.
+        /// Number of lengths given.
         lengths: usize,
-        /// How many divisions there are.
+        /// Number of divisions.
         divisions: usize,
     },
     /// A list of new numbers that is not a permutation.
@@ -127,7 +127,7 @@ pub enum MeshError {
     NotPermutation {
         /// `node` or `element`.
         what: &'static str,
-        /// How many numbers there have to be.
+        /// Required count of numbers.
         count: usize,
         /// First position that repeats a number, is out of range, missing or in excess.
         position: usize,

@@ -1,4 +1,4 @@
-//! Where in a mesh a place is: the element it lies in and the weights of its corners.
+//! Location of a place in a mesh: the element it lies in and the weights of its corners.
 //!
 //! The natural coordinates `xi` of `x` solve `sum_a N_a(xi) X_a = x` by Newton's method; the
 //! place is inside where no `N_a(xi)` is negative.
@@ -24,8 +24,8 @@ pub struct Located {
 }
 
 impl Mesh {
-    /// Where a place is in the reference configuration: in the element it lies deepest in,
-    /// `None` where it is outside of all.
+    /// Location of a place in the reference configuration: in the element it lies deepest in,
+    /// `None` if it is outside of all.
     pub fn locate(&self, x: &Vec3) -> Option<Located> {
         let mut best: Option<(f64, Located)> = None;
         let mut first = 0;

@@ -24,7 +24,7 @@ impl Mesh {
     /// A mesh without sets.
     ///
     /// # Errors
-    /// Those of [`Mesh::check`].
+    /// Returns the errors of [`Mesh::check`].
     pub fn new(positions: Vec<Vec3>, blocks: Vec<CellBlock>) -> Result<Self, MeshError> {
         let mesh = Self {
             positions,
@@ -52,7 +52,7 @@ impl Mesh {
         self.check_sets()
     }
 
-    /// How many elements there are.
+    /// Number of elements.
     pub fn element_count(&self) -> usize {
         self.blocks.iter().map(CellBlock::len).sum()
     }

@@ -12,7 +12,7 @@ use crate::{CellKind, ElementId, Face, Mesh, MeshError, NodeId, Vec3};
 /// Scaled Jacobians below this are listed in [`Quality::slivers`].
 pub const SMALL_SCALED_JACOBIAN: f64 = 0.05;
 
-/// How many elements [`Quality::poorest`] lists.
+/// Number of elements that [`Quality::poorest`] lists.
 pub const POOREST: usize = 5;
 
 /// Shape of all elements of a mesh.

@@ -44,8 +44,8 @@ pub enum Region {
 }
 
 impl Region {
-    /// Whether a point is in the region. `size` is a length of what is looked at; it sets the
-    /// margin of a half space, which has no size.
+    /// Returns whether a point is in the region. `size` is a characteristic length of the mesh; it
+    /// sets the margin of a half space, which has no size of its own.
     pub fn contains(&self, x: &Vec3, size: f64) -> bool {
         match *self {
             Self::Box { from, to } => {

@@ -7,14 +7,14 @@ use std::collections::{BTreeSet, HashMap, VecDeque};
 use crate::{ElementId, Face, Mesh, NodeId, Region, Vec3};
 
 impl Mesh {
-    /// Adds the set `all` of the facets of the boundary where there is none of that name.
+    /// Adds the set `all` of boundary facets if there is none of that name.
     pub fn name_all_facets(&mut self) {
         if self.facet_sets.get("all").is_none() {
             self.facet_sets.insert("all", self.boundary_faces());
         }
     }
 
-    /// Adds the set `all` of elements where there is none of that name.
+    /// Adds the set `all` of elements if there is none of that name.
     pub fn name_all_elements(&mut self) {
         if self.element_sets.get("all").is_none() {
             let elements = 0..self.element_count();
@@ -54,7 +54,7 @@ impl Mesh {
         nodes.into_iter().collect()
     }
 
-    /// Those of some faces that have all their corners among these nodes.
+    /// Faces, out of the given ones, with all corners among these nodes.
     pub fn faces_among(&self, faces: &[Face], nodes: &[NodeId]) -> Vec<Face> {
         let chosen = self.chosen(nodes);
         let is_in = |face: &Face| self.face_nodes(*face).iter().all(|n| chosen[n.index()]);
@@ -84,7 +84,8 @@ impl Mesh {
         faces
     }
 
-    /// Those of some faces whose outward normals are within an angle (radians) of a direction.
+    /// Faces, out of the given ones, whose outward normals are within an angle (radians) of a
+    /// direction.
     pub fn faces_along(&self, faces: &[Face], direction: &Vec3, angle: f64) -> Vec<Face> {
         let faces = faces.iter().copied();
         faces

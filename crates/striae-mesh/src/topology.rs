@@ -1,4 +1,4 @@
-//! Which faces bound the body, which nodes and elements touch which.
+//! Topology of a mesh: faces on the boundary, and nodes and elements that touch each other.
 //!
 //! Two elements share a face when they have all its nodes in common; a face of one
 //! element only is on the boundary.

@@ -1,7 +1,6 @@
-//! The same mesh with other numbers or in another place.
+//! Renumbered and moved copies of a mesh.
 //!
-//! No answer may depend on numbering or on the frame; tests use these maps to
-//! show it.
+//! No result may depend on the numbering or on the frame; tests use these maps to check that.
 
 use crate::random::Random;
 use crate::{CellBlock, ElementId, Face, Mesh, MeshError, NodeId, Sets, Vec3};
@@ -45,10 +44,10 @@ impl Renumbering {
 }
 
 impl Mesh {
-    /// The same mesh with nodes and elements renumbered.
+    /// Copy of the mesh with renumbered nodes and elements.
     ///
     /// # Errors
-    /// [`MeshError::NotPermutation`] when the new numbers do not fit the mesh.
+    /// Returns [`MeshError::NotPermutation`] if the new numbers do not fit the mesh.
     pub fn renumbered(&self, renumbering: &Renumbering) -> Result<Self, MeshError> {
         let Renumbering { nodes, elements } = renumbering;
         let counts = (self.positions.len(), self.element_count());

@@ -51,7 +51,7 @@ pub(super) fn read(path: &Path, part: Option<&str>) -> Result<Reading, MeshFileE
     reading.map_err(|fault| text.placed(fault))
 }
 
-/// What a file says of the mesh of a body.
+/// Mesh of a body as stated in a file.
 pub(super) fn read_collected(path: &Path) -> Result<Collected, MeshFileError> {
     let text = Text::read(path)?;
     of_text(&text).map_err(|fault| text.placed(fault))
@@ -92,8 +92,8 @@ pub(super) fn part(text: &str, part: Option<&str>) -> Result<Reading, MeshFileFa
     collected.of_part(part)?.mesh()
 }
 
-/// What the text says of the mesh of a body; `explain` puts into words why a material cannot be
-/// used, and `place` where a line is.
+/// Mesh of a body as stated in the text; `explain` gives the reason why a material cannot be used,
+/// and `place` the location of a line.
 pub(super) fn collected(
     text: &str,
     explain: impl Fn(MeshFileFault) -> String,
@@ -116,13 +116,13 @@ struct Reader<'a> {
     /// Parts that have been read, by name in capitals.
     parts: BTreeMap<String, Known<'a>>,
     names: Names,
-    /// What is outside of parts, and all that has been placed.
+    /// Content outside of parts, and everything that has been placed.
     whole: Part,
     /// Lines of keywords that are passed over.
     unused: BTreeSet<usize>,
 }
 
-/// Where in the hierarchy of the file a keyword stands.
+/// Level of a keyword in the hierarchy of the file.
 #[derive(Default)]
 enum Scope<'a> {
     #[default]
@@ -136,12 +136,12 @@ enum Scope<'a> {
 struct Known<'a> {
     keyword: &'a Keyword<'a>,
     part: Part,
-    /// How many instances it has.
+    /// Number of its instances.
     instances: usize,
 }
 
 impl<'a> Reader<'a> {
-    /// What has read all keywords of a file.
+    /// Reads all keywords of a file.
     fn of(keywords: &'a [Keyword<'a>]) -> Result<Self, MeshFileFault> {
         let instances = keywords.iter();
         let instances = instances.filter(|keyword| keyword.name == "INSTANCE");
@@ -193,7 +193,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// What keywords of the mesh speak of.
+    /// Part that keywords of the mesh refer to.
     fn part(&mut self) -> &mut Part {
         match self.scope {
             Scope::Part(_) | Scope::Instance(..) => &mut self.current,

@@ -20,7 +20,7 @@ use std::fmt;
 pub struct MaterialCard {
     /// Its name.
     pub name: String,
-    /// What it is, or why it cannot be used, with the file and line.
+    /// Card, or the reason why it cannot be used, with the file and line.
     pub card: Result<Card, String>,
 }
 
@@ -40,7 +40,7 @@ pub struct Card {
     pub density: Option<f64>,
     /// Elastic constants.
     pub elasticity: Elasticity,
-    /// Which moduli these are where some relax.
+    /// Kind of the moduli if some relax.
     pub moduli: Moduli,
     /// Yield stress and plastic strain, row by row; empty for what does not yield.
     pub hardening: Vec<[f64; 2]>,
@@ -90,13 +90,13 @@ pub enum Elasticity {
     },
 }
 
-/// Which moduli the constants of a material that relaxes are.
+/// Kind of the moduli of a material that relaxes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Moduli {
-    /// Those of slow deformations.
+    /// Moduli for slow deformations.
     #[default]
     LongTerm,
-    /// Those of sudden deformations.
+    /// Moduli for sudden deformations.
     Instantaneous,
 }
 

@@ -1,4 +1,4 @@
-//! What a file says of a mesh, by the file's own numbers, and the mesh made of it.
+//! Mesh as stated in a file, with the file's own numbers, and the mesh made of it.
 
 use super::division::{self, Middles};
 use super::ids::Ids;
@@ -24,9 +24,9 @@ pub(super) struct Collected {
     pub(super) facet_sets: BTreeMap<String, Vec<(Place, FileFace)>>,
     /// Elements of lower dimension in no set.
     pub(super) loose: Loose,
-    /// What is made of something else than the file says.
+    /// Notes on parts of the file that were interpreted or replaced.
     pub(super) notes: Vec<String>,
-    /// The formulation that the elements of the file ask for.
+    /// The formulation that the elements of the file request.
     pub(super) asked: Option<Asked>,
     /// The instances whose numbers are raised, see `abaqus/names.rs`.
     pub(super) instances: Vec<String>,

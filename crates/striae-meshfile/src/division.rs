@@ -88,7 +88,7 @@ impl Middles {
     }
 }
 
-/// Whether a cell of a kind with so many nodes is divided.
+/// Returns whether a cell of a kind with so many nodes is divided.
 pub(super) fn is_divided(kind: CellKind, nodes: usize) -> bool {
     nodes > kind.corner_count()
 }

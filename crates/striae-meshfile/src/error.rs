@@ -1,4 +1,4 @@
-//! What can be wrong with a mesh file.
+//! Errors of mesh files.
 
 use std::path::{Path, PathBuf};
 use striae_mesh::MeshError;
@@ -9,12 +9,12 @@ use striae_mesh::MeshError;
 pub struct MeshFileError {
     /// The file.
     pub path: PathBuf,
-    /// What is wrong with it.
+    /// Fault in the file.
     #[source]
     pub fault: MeshFileFault,
 }
 
-/// Where something stands in a mesh file.
+/// Location in a mesh file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
     /// A line of text, from 1.
@@ -104,7 +104,7 @@ impl std::fmt::Display for Place {
     }
 }
 
-/// What is wrong with a mesh file.
+/// Fault in a mesh file.
 #[derive(Debug, thiserror::Error)]
 pub enum MeshFileFault {
     /// The operating system refuses to read it.
@@ -119,35 +119,35 @@ pub enum MeshFileFault {
     /// A place that is wrong or cannot be used.
     #[error("{place}: expected {expected}, found {found}{}", Remedy(remedy))]
     At {
-        /// Where it is in the file.
+        /// Location in the file.
         place: Place,
-        /// What should be there.
+        /// Expected content.
         expected: String,
-        /// What is there.
+        /// Content found.
         found: String,
-        /// What to do about it.
+        /// Remedy.
         remedy: Option<&'static str>,
     },
     /// A binary file that is shorter or longer than it says.
-    #[error("the file announces {announced} bytes, but has {found}")]
+    #[error("the file declares {announced} bytes, but has {found}")]
     Length {
         /// Number of bytes that follows from its header.
         announced: u64,
         /// Its number of bytes.
         found: u64,
     },
-    /// The file holds nothing of what is looked for.
+    /// The file contains nothing of the kind that is read.
     #[error("expected {expected}, found none; {remedy}")]
     Empty {
-        /// What is looked for.
+        /// Content searched for.
         expected: &'static str,
-        /// What to do about it.
+        /// Remedy.
         remedy: &'static str,
     },
     /// A part that the file does not have.
     #[error("{}", no_part(name, known))]
     NoPart {
-        /// The name asked for.
+        /// The requested name.
         name: String,
         /// Names of its element sets and instances.
         known: Vec<String>,
@@ -155,13 +155,13 @@ pub enum MeshFileFault {
     /// Node data that are not there, or one of several that are.
     #[error("{}", node_data(name, known))]
     NodeData {
-        /// The name asked for.
+        /// The requested name.
         name: Option<String>,
         /// Names of all node data of the file.
         known: Vec<String>,
     },
     /// A node without a vector.
-    #[error("it gives no vector to node {number} of the mesh")]
+    #[error("it has no vector for node {number} of the mesh")]
     NoVector {
         /// Number of the node in the file of the mesh.
         number: u64,
@@ -187,7 +187,7 @@ impl MeshFileFault {
         }
     }
 
-    /// The same fault with advice, if it is that of a place.
+    /// Adds advice to the fault, if it has a location.
     pub(super) fn with_remedy(mut self, advice: &'static str) -> Self {
         if let Self::At { remedy, .. } = &mut self {
             *remedy = Some(advice);

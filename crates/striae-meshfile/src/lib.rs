@@ -51,7 +51,7 @@ use collected::Collected;
 use std::path::Path;
 use striae_mesh::{Mesh, NodeId, Vec3};
 
-/// A rigid surface as it is read from a file.
+/// A rigid surface read from a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RigidSurfaceMesh {
     /// Node positions.
@@ -61,16 +61,16 @@ pub struct RigidSurfaceMesh {
     pub facets: Vec<[NodeId; 4]>,
 }
 
-/// The mesh of a body as it is read from a file.
+/// The mesh of a body read from a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reading {
     /// The mesh.
     pub mesh: Mesh,
-    /// What is made of something else than the file says, a line each.
+    /// Notes on parts of the file that were interpreted or replaced, one line each.
     pub notes: Vec<String>,
-    /// The formulation that the elements of the file ask for.
+    /// The formulation that the elements of the file request.
     pub asked: Option<Asked>,
-    /// What the file calls nodes and elements.
+    /// Numbers of nodes and elements in the file.
     pub numbers: Numbers,
     /// Materials that the file states.
     pub materials: Vec<MaterialCard>,
@@ -100,7 +100,7 @@ impl From<Mesh> for Reading {
     }
 }
 
-/// A formulation of elements that a letter in their name asks for.
+/// A formulation of elements that a letter in their name requests.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Asked {
     /// With a pressure of their own: `C3D8H`.
@@ -118,19 +118,20 @@ pub fn read(path: impl AsRef<Path>) -> Result<Mesh, MeshFileError> {
     read_with_notes(path).map(|reading| reading.mesh)
 }
 
-/// As [`read`], with what there is to say about it.
+/// Reads a file like [`read`], with notes about it.
 ///
 /// # Errors
-/// Those of [`read`].
+/// Returns the errors of [`read`].
 pub fn read_with_notes(path: impl AsRef<Path>) -> Result<Reading, MeshFileError> {
     read_part(path, None)
 }
 
-/// As [`read_with_notes`], but for a part of the file: an element set, a physical volume, or an
-/// instance of a part. Sets are restricted to it; those of which nothing is on it vanish.
+/// Reads a part of a file like [`read_with_notes`]: an element set, a physical volume, or an
+/// instance of a part. Sets are restricted to that part; sets without members in it are dropped.
 ///
 /// # Errors
-/// Those of [`read`], and [`MeshFileFault::NoPart`] where the file has no part of that name.
+/// Returns the errors of [`read`], and [`MeshFileFault::NoPart`] if the file has no part of that
+/// name.
 pub fn read_part(path: impl AsRef<Path>, part: Option<&str>) -> Result<Reading, MeshFileError> {
     let path = path.as_ref();
     if ending(path) == "inp" {
@@ -140,7 +141,7 @@ pub fn read_part(path: impl AsRef<Path>, part: Option<&str>) -> Result<Reading, 
     reading.map_err(|fault| fault.of(path))
 }
 
-/// What a file of another format than Abaqus's says of the mesh of a body.
+/// Mesh of a body as stated in a file of another format than Abaqus's.
 fn collected(path: &Path) -> Result<Collected, MeshFileFault> {
     match ending(path).as_str() {
         "msh" => gmsh::collected(&bytes(path)?),
@@ -162,11 +163,11 @@ pub fn read_rigid_surface(path: impl AsRef<Path>) -> Result<RigidSurfaceMesh, Me
     read_rigid_part(path, None)
 }
 
-/// As [`read_rigid_surface`], but for a part of an Abaqus file: an element set, or an instance.
+/// Reads a part of an Abaqus file like [`read_rigid_surface`]: an element set, or an instance.
 ///
 /// # Errors
-/// Those of [`read_rigid_surface`], and [`MeshFileFault::NoPart`] where the file has no part of
-/// that name.
+/// Returns the errors of [`read_rigid_surface`], and [`MeshFileFault::NoPart`] if the file has no
+/// part of that name.
 pub fn read_rigid_part(
     path: impl AsRef<Path>,
     part: Option<&str>,
@@ -189,9 +190,8 @@ pub fn read_rigid_part(
 
 /// Reads vectors at nodes from a `.msh` or `.csv` file.
 ///
-/// Of the node data of a Gmsh file those called `name` are read, or the only ones.
-/// A list has a line `node,x,y,z` for every node, below these words; its name is
-/// not looked at.
+/// Of the node data of a Gmsh file those called `name` are read, or the only ones. A list has a
+/// line `node,x,y,z` for every node, below these words; its name is ignored.
 ///
 /// # Errors
 /// [`MeshFileError`] names the file and, where there is one, the line.

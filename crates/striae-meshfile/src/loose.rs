@@ -1,6 +1,6 @@
 //! Elements of lower dimension that are left out.
 
-/// How many elements of lower dimension are in no set, by their dimension.
+/// Numbers of elements of lower dimension in no set, by dimension.
 #[derive(Default)]
 pub(super) struct Loose([usize; 3]);
 
@@ -10,7 +10,7 @@ impl Loose {
         self.0[dimension] += more;
     }
 
-    /// What there is to say.
+    /// Note about them, if there are any.
     pub(super) fn note(&self) -> Option<String> {
         let [points, lines, surfaces] = self.0;
         let words = [

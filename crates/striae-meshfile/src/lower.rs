@@ -1,7 +1,7 @@
 //! Elements of lower dimension: the faces and nodes of a body that they mark.
 //!
-//! Those in a set make a set of facets (surface elements) or of nodes (lines and points) of its
-//! name; all others are counted, and said to be left out.
+//! Elements in a set become a set of facets (surface elements) or of nodes (lines and points) of
+//! its name; all others are counted and reported as left out.
 
 use super::collected::{Collected, FileFace};
 use super::{Place, division};

@@ -2,8 +2,8 @@
 
 use striae_mesh::{ElementId, NodeId};
 
-/// How many bits the numbers of a part of an Abaqus file have where there are several instances;
-/// above them stands the place of the instance.
+/// Number of bits of the numbers of a part of an Abaqus file with several instances; the bits above
+/// hold the index of the instance.
 pub(super) const NUMBER_BITS: u32 = 40;
 
 /// The file's own numbers of what is read.
@@ -17,12 +17,12 @@ pub struct Numbers {
 }
 
 impl Numbers {
-    /// What the file calls a node: a number, `instance.number` if it has several instances.
+    /// Number of a node in the file: `instance.number` if it has several instances.
     pub fn node(&self, node: NodeId) -> String {
         named(&self.instances, self.nodes[node.index()])
     }
 
-    /// What the file calls an element, or the one that it is a part of.
+    /// Number of an element in the file, or of the element that it was divided from.
     pub fn element(&self, element: ElementId) -> String {
         named(&self.instances, self.elements[element.index()])
     }

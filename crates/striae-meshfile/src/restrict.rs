@@ -8,7 +8,7 @@ use super::{MeshFileFault, Place};
 use std::collections::{BTreeMap, HashSet};
 
 impl Collected {
-    /// What is on the elements of a set, all of it where there is none.
+    /// Part of the mesh on the elements of a set; without a set, all of it.
     pub(super) fn of_part(self, part: Option<&str>) -> Result<Self, MeshFileFault> {
         match part {
             None => Ok(self),
@@ -17,7 +17,7 @@ impl Collected {
         }
     }
 
-    /// Whether a name stands for all elements.
+    /// Returns whether a name refers to all elements.
     fn wholes(&self, name: &str) -> bool {
         let is_set = self.element_sets.contains_key(name);
         !is_set && (name == "all" || self.whole.as_deref() == Some(name))

@@ -35,7 +35,7 @@ pub(super) fn rigid_surface(bytes: &[u8]) -> Result<RigidSurfaceMesh, MeshFileFa
 
 const HEADER: usize = 84;
 const TRIANGLE: usize = 50;
-/// Area over the square of the longest edge that is none.
+/// Ratio of the area to the square of the longest edge below which it counts as zero.
 const FLAT: f64 = 1e-12;
 
 /// The length of a binary file by its number of triangles.

@@ -1,13 +1,13 @@
 //! Keywords of a file that no mesh is made of.
 
-/// A keyword of a file that bears on no mesh, such as a step or a contact pair.
+/// A keyword of a file that does not affect the mesh, such as a step or a contact pair.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unused {
     /// The keyword without its asterisk, in capitals.
     pub keyword: String,
-    /// Where it stands.
+    /// Locations in the file.
     pub places: Vec<String>,
-    /// Whether it states a material.
+    /// `true` if it states a material.
     pub of_materials: bool,
 }
 

@@ -1,6 +1,6 @@
-//! What can be wrong with a model, in words.
+//! Faults of a model, with their messages.
 //!
-//! Longer than other files, as it lists every kind of fault with its words.
+//! Longer than other files, as it lists every kind of fault with its message.
 
 use std::fmt;
 
@@ -13,7 +13,7 @@ use crate::path::Path;
 pub struct Fault {
     /// The part that is wrong.
     pub path: Path,
-    /// What is wrong.
+    /// Kind of fault.
     pub kind: FaultKind,
 }
 
@@ -51,7 +51,7 @@ pub enum FaultKind {
         kind: &'static str,
         /// The name.
         name: String,
-        /// Where it was defined first.
+        /// Path of the first definition.
         first: Path,
     },
     /// Facets with three corners where four are needed.
@@ -59,7 +59,7 @@ pub enum FaultKind {
         "{what} needs facets with four corners, and body `{body}` has triangles there; mesh it with hexahedra, wedges or pyramids that show quadrilaterals"
     )]
     Triangles {
-        /// What needs them.
+        /// Feature that needs them.
         what: String,
         /// Name of the body.
         body: String,
@@ -69,7 +69,7 @@ pub enum FaultKind {
     Nothing {
         /// `body` or `step`.
         what: &'static str,
-        /// Why one is needed.
+        /// Reason why one is needed.
         need: &'static str,
     },
     /// An id that nothing has.
@@ -79,17 +79,17 @@ pub enum FaultKind {
         what: &'static str,
         /// The id.
         index: usize,
-        /// How many there are.
+        /// Number of existing ones.
         count: usize,
     },
     /// A number outside its range.
     #[error("{what} must be {expected}, but is {found}")]
     Range {
-        /// What it is.
+        /// Name of the quantity.
         what: String,
-        /// What it must be.
+        /// Requirement on the value.
         expected: &'static str,
-        /// What it is instead.
+        /// Value given instead.
         found: f64,
     },
     /// A name that nothing has.
@@ -99,7 +99,7 @@ pub enum FaultKind {
         kind: &'static str,
         /// The name.
         name: String,
-        /// What there is.
+        /// Existing names.
         known: Vec<String>,
         /// The most similar of them.
         nearest: Option<String>,
@@ -130,7 +130,7 @@ pub enum FaultKind {
     },
     /// An element in two sections of a body.
     #[error(
-        "{element} of body `{body}` is in two sections, `{first}` and `{second}`; an element has one material"
+        "{element} of body `{body}` is in two sections, `{first}` and `{second}`; each element needs exactly one material"
     )]
     TwoSections {
         /// The body.
@@ -149,7 +149,7 @@ pub enum FaultKind {
     NoMaterial {
         /// The body.
         body: String,
-        /// How many elements.
+        /// Number of such elements.
         count: usize,
         /// The first of them.
         element: ElementId,
@@ -159,7 +159,7 @@ pub enum FaultKind {
     Mesh {
         /// The body or rigid surface.
         owner: String,
-        /// What its maker says.
+        /// Message of its generator.
         cause: String,
     },
     /// A pair without a deformable side.
@@ -170,14 +170,14 @@ pub enum FaultKind {
     },
     /// A facet is on both sides of a pair.
     #[error(
-        "pair `{pair}` has {shared} facets of body `{body}` on both sides; give its sides facets of their own, or say `b = \"itself\"` where facets of `a` may touch each other"
+        "pair `{pair}` has {shared} facets of body `{body}` on both sides; give its sides facets of their own, or set `b = \"itself\"` if facets of `a` may touch each other"
     )]
     SharedFacets {
         /// The pair.
         pair: String,
         /// The body.
         body: String,
-        /// How many facets.
+        /// Number of such facets.
         shared: usize,
     },
     /// A surface that is a body's and a rigid one's.
@@ -198,7 +198,7 @@ pub enum FaultKind {
     },
     /// Two statements about what meets, of which neither is narrower.
     #[error(
-        "{statements} both name {a} and {b}, and neither is narrower; leave one of them out, or give it facet sets, such as `body.set`"
+        "{statements} both name {a} and {b}, and neither is narrower; remove one of them, or give it facet sets, such as `body.set`"
     )]
     BothName {
         /// The two statements.
@@ -210,7 +210,7 @@ pub enum FaultKind {
     },
     /// Two textures on one surface, neither of which is that of a narrower one.
     #[error(
-        "`surface` {first} and {second} paint the same facets, of {} and {}, and neither is narrower; leave one of them out, or give it another facet set", labels[0], labels[1]
+        "`surface` {first} and {second} paint the same facets, of {} and {}, and neither is narrower; remove one of them, or give it another facet set", labels[0], labels[1]
     )]
     BothPaint {
         /// Number of the earlier statement.
@@ -222,7 +222,7 @@ pub enum FaultKind {
     },
     /// A statement about what meets that nothing does.
     #[error(
-        "{statement} names nothing that can touch: named pairs and ties keep their facets, and rigid surfaces do not touch each other; leave it out, or name other surfaces"
+        "{statement} names nothing that can touch: named pairs and ties keep their facets, and rigid surfaces do not touch each other; remove it, or name other surfaces"
     )]
     NothingToTouch {
         /// The statement.
@@ -236,8 +236,8 @@ pub enum FaultKind {
         /// Names that exist.
         found: &'static str,
     },
-    /// A pair of a body with itself that asks for what needs two sides.
-    #[error("pair `{pair}` is one of a surface with itself, which {what}; leave that out")]
+    /// A pair of a body with itself with a setting that needs two sides.
+    #[error("pair `{pair}` is one of a surface with itself, which {what}; remove this setting")]
     OnItself {
         /// The pair.
         pair: String,
@@ -246,7 +246,7 @@ pub enum FaultKind {
     },
     /// Faces of their own in a pair that has one normal at a node.
     #[error(
-        "pair `{pair}` is collocated and states `feature_angle`: its nodes have one normal each; leave one of them out"
+        "pair `{pair}` is collocated and states `feature_angle`: its nodes have one normal each; remove one of the settings"
     )]
     CollocatedFeatures {
         /// The pair.
@@ -263,18 +263,18 @@ pub enum FaultKind {
     /// A texture that cannot be painted.
     #[error("{cause}")]
     Unpainted {
-        /// Why.
+        /// Reason.
         cause: striae_solve::problem::ProblemError,
     },
     /// A tie that does not hold.
     #[error("{fault}")]
     Tie {
-        /// Why.
+        /// Reason.
         fault: striae_solve::tie::TieFault,
     },
     /// A pair joins what is tied.
     #[error(
-        "tie `{tie}` glues facets that pair `{pair}` lets slide and open; leave one of them out, or give the pair other facets"
+        "tie `{tie}` glues facets that also belong to pair `{pair}`, which lets them slide and open; remove one of them, or give the pair other facets"
     )]
     TiedPair {
         /// The tie.
@@ -283,7 +283,7 @@ pub enum FaultKind {
         pair: String,
     },
     /// Two ties join the same facets.
-    #[error("tie `{tie}` joins facets that tie `{other}` joins already; leave one of them out")]
+    #[error("tie `{tie}` joins facets that tie `{other}` already joins; remove one of them")]
     SameTie {
         /// The tie.
         tie: String,
@@ -292,7 +292,7 @@ pub enum FaultKind {
     },
     /// A pair is stabilised, but all steps have inertia.
     #[error(
-        "pair `{pair}` is stabilised, but every step is dynamic: there inertia carries bodies across gaps. Leave `stabilise` out"
+        "pair `{pair}` is stabilised, but every step is dynamic, where inertia carries bodies across gaps. Remove `stabilise`"
     )]
     StabilisedByInertia {
         /// The pair.
@@ -300,7 +300,7 @@ pub enum FaultKind {
     },
     /// A pair states an interference and presses the overlap of its meshes out, too.
     #[error(
-        "pair `{pair}` states an interference and `initial = \"resolve\"`: the interference is measured from faces that touch, whatever their meshes overlap by. Leave one of them out"
+        "pair `{pair}` states an interference and `initial = \"resolve\"`: the interference is measured from touching faces, whatever the overlap of their meshes. Remove one of the settings"
     )]
     InterferenceResolved {
         /// The pair.
@@ -309,7 +309,7 @@ pub enum FaultKind {
     /// The meshes of a pair do not fit.
     #[error("{fault}")]
     Initial {
-        /// How.
+        /// Fault of the initial fit.
         fault: striae_solve::initial::InitialFault,
     },
     /// A displacement condition without a component.
@@ -359,12 +359,12 @@ pub enum FaultKind {
         /// A component, or that there is none.
         component: String,
     },
-    /// The same thing is stated twice in one step.
+    /// A value is stated twice in one step.
     #[error("step `{step}` states {what} twice")]
     StatedTwice {
         /// The step.
         step: String,
-        /// What is stated.
+        /// Name of the value.
         what: String,
     },
     /// Sizes of increments that contradict each other.
@@ -383,7 +383,7 @@ pub enum FaultKind {
     },
     /// A velocity in a step in which nothing has one.
     #[error(
-        "step `{step}` states a velocity but has no inertia; give it `dynamics = {{}}` or take the velocity out"
+        "step `{step}` states a velocity but has no inertia; give it `dynamics = {{}}` or remove the velocity"
     )]
     VelocityWithoutInertia {
         /// The step.
@@ -417,7 +417,7 @@ pub enum FaultKind {
     },
     /// A length that cannot be computed with.
     #[error(
-        "{what} has a length or coordinate of {length:.1e}; those from 1e-50 to 1e50 can be computed with: mend the mesh, or take another unit of length"
+        "{what} has a length or coordinate of {length:.1e}, outside of the range from 1e-50 to 1e50; repair the mesh, or choose another unit of length"
     )]
     Extent {
         /// The body or rigid surface, as the subject of a sentence.
@@ -427,7 +427,7 @@ pub enum FaultKind {
     },
     /// A facet of a rigid surface without area.
     #[error(
-        "facet {facet} of rigid surface `{rigid}`, with a corner at ({:.6}, {:.6}, {:.6}), has no area; leave it out, or mend its corners", at.x, at.y, at.z
+        "facet {facet} of rigid surface `{rigid}`, with a corner at ({:.6}, {:.6}, {:.6}), has no area; remove it, or correct its corners", at.x, at.y, at.z
     )]
     FlatFacet {
         /// The rigid surface.
@@ -439,7 +439,7 @@ pub enum FaultKind {
     },
     /// Neighbouring facets of a rigid surface that look to opposite sides.
     #[error(
-        "facets {first} and {second} of rigid surface `{rigid}` look to opposite sides at their edge from ({:.6}, {:.6}, {:.6}) to ({:.6}, {:.6}, {:.6}); turn one of them round, so that the corners of all go counter-clockwise as seen from where the body is",
+        "facets {first} and {second} of rigid surface `{rigid}` have opposite orientations at their edge from ({:.6}, {:.6}, {:.6}) to ({:.6}, {:.6}, {:.6}); reverse one of them, so that the corners of all are counter-clockwise as seen from the body",
         ends[0].x, ends[0].y, ends[0].z, ends[1].x, ends[1].y, ends[1].z
     )]
     TurnedFacet {
@@ -475,11 +475,11 @@ pub enum FaultKind {
         node: NodeId,
     },
     /// Points that do not make a curve.
-    #[error("the points of curve `{curve}` must rise in their first number from 0 to 1, {found}")]
+    #[error("the first numbers of the points of curve `{curve}` must ascend from 0 to 1, {found}")]
     BadCurve {
         /// The curve.
         curve: String,
-        /// What is wrong.
+        /// Description of the fault.
         found: String,
     },
     /// Elastic constants of a material that is not stable.
@@ -495,7 +495,7 @@ pub enum FaultKind {
     /// The constants of a bulk law are inadmissible.
     #[error("the material is not admissible: {cause}")]
     Material {
-        /// Which constant, and why.
+        /// Name of the constant, and the reason.
         cause: String,
     },
     /// Textures do not fit the friction law.
@@ -505,14 +505,14 @@ pub enum FaultKind {
     Textures {
         /// The pair.
         pair: String,
-        /// How many sides must have one.
+        /// Number of sides that must have one.
         required: &'static str,
-        /// How many do.
+        /// Number of sides that have one.
         found: usize,
     },
     /// A texture given at nodes of a plane.
     #[error(
-        "rigid surface `{surface}` is a plane without nodes, so its texture cannot be given at points or nodes"
+        "rigid surface `{surface}` is a plane and has no nodes, so its texture cannot be given at points or nodes"
     )]
     NodesOnPlane {
         /// The rigid surface.
@@ -531,19 +531,19 @@ pub enum FaultKind {
         step: String,
         /// The body or section.
         of: String,
-        /// Why, and what is needed.
+        /// Reason, and what is needed.
         cause: String,
     },
     /// A body that can move without resistance.
     #[error(
-        "body `{body}` is in no contact pair and {} in step `{step}`; prescribe displacements that hold it", leaves(.motions)
+        "body `{body}` is in no contact pair and {} in step `{step}`; prescribe displacements that restrain it", leaves(.motions)
     )]
     Free {
         /// The body.
         body: String,
         /// The first step in which it is free.
         step: String,
-        /// How many of the six rigid motions are free.
+        /// Number of free rigid motions, out of six.
         motions: usize,
     },
     /// A piece of a body that is not joined to the rest and can move without resistance.
@@ -553,17 +553,17 @@ pub enum FaultKind {
     LoosePiece {
         /// The body.
         body: String,
-        /// How many pieces it has.
+        /// Number of pieces.
         pieces: usize,
         /// Nodes of the piece.
         nodes: usize,
         /// The first of them.
         node: NodeId,
-        /// Where that is.
+        /// Position of the node.
         at: striae_mesh::Vec3,
         /// The first step in which it is free.
         step: String,
-        /// How many of the six rigid motions are free.
+        /// Number of free rigid motions, out of six.
         motions: usize,
         /// Nodes of the piece that lie on nodes of other pieces.
         coincident: usize,
@@ -587,7 +587,7 @@ pub enum FaultKind {
     },
     /// Both sides of a pair are prescribed towards each other.
     #[error(
-        "pair `{pair}`: in step `{step}` displacements prescribe all nodes of both contact surfaces along their normals, so nothing is left for contact to decide and its pressure is not determined; prescribe nodes away from the contact surface, such as those of the opposite face, and leave at least one side free"
+        "pair `{pair}`: in step `{step}` displacements prescribe all nodes of both contact surfaces along their normals, so the contact pressure is undetermined; prescribe nodes away from the contact surface, such as those of the opposite face, and leave at least one side free"
     )]
     BothPrescribed {
         /// The pair.
@@ -633,9 +633,9 @@ fn texturing(found: usize) -> &'static str {
 
 fn joining(coincident: usize) -> String {
     match coincident {
-        0 => "; prescribe displacements that hold it, tie it to the rest, or make it a body of its own".into(),
+        0 => "; prescribe displacements that restrain it, tie it to the rest, or make it a separate body".into(),
         count => format!(
-            "; {count} of its nodes lie on nodes of another piece: merge coincident nodes where the mesh is made, or tie the pieces"
+            "; {count} of its nodes lie on nodes of another piece: merge coincident nodes in the mesh generator, or tie the pieces"
         ),
     }
 }
@@ -644,18 +644,18 @@ fn unopposed(load: &f64, pairs: &[String]) -> String {
     let pairs = quoted(pairs);
     match *load > 0.0 {
         true => format!(
-            "its loads pull it the same way, away from the contact of {pairs}, with a force of {load:.3e}; turn the loads round (a positive pressure presses on a surface), or prescribe displacements that hold it"
+            "its loads pull it in the same direction, away from the contact of {pairs}, with a force of {load:.3e}; reverse the loads (a positive pressure presses on a surface), or prescribe displacements that restrain it"
         ),
         false => format!(
-            "nothing holds it against that: it would fly off, and the contact of {pairs} would have no force; prescribe displacements that hold it, or load it towards the contact"
+            "nothing resists this motion: it would fly off, and the contact of {pairs} would have no force; prescribe displacements that restrain it, or load it towards the contact"
         ),
     }
 }
 
 fn leaves(motions: &usize) -> String {
     match motions {
-        6 => "nothing holds it".into(),
-        1 => "one rigid motion of it is left free".into(),
-        _ => format!("{motions} rigid motions of it are left free"),
+        6 => "nothing restrains it".into(),
+        1 => "one of its rigid motions is free".into(),
+        _ => format!("{motions} of its rigid motions are free"),
     }
 }

@@ -1,5 +1,5 @@
-//! Faults that only meshes in their places show: gaps and overlaps, closed where a pair asks
-//! for it, otherwise judged; textures without a direction; nodes of ties put where they belong.
+//! Faults that only meshes in their places show: gaps and overlaps, closed if a pair requests it,
+//! otherwise judged; textures without a direction; nodes of ties moved to their places.
 
 use striae_solve::{
     initial::{InitialFault, away, close, crowded, fault, fits, turned},
@@ -13,8 +13,8 @@ use crate::{
     path::Path,
 };
 
-/// The model with its gaps closed, as its pairs ask for, and with nodes that follow in ties
-/// where they belong. The model must have no other faults.
+/// The model with its gaps closed, as its pairs request, and with dependent nodes of ties at their
+/// places. The model must have no other faults.
 ///
 /// # Errors
 /// Faults of the meshes and textures of each pair and of the meshes of each tie.

@@ -1,4 +1,4 @@
-//! What is simulated: the parts of a model, builders by name, and validation.
+//! Description of a simulation: the parts of a model, builders by name, and validation.
 //!
 //! ```text
 //! model("title").body(..).pair(..).step(..)   names of bodies, sets and surfaces
@@ -6,8 +6,8 @@
 //! Model::faults() -> [Fault { path, kind }]    every fault there is, `pairs[0].friction: ...`
 //! ```
 //!
-//! No file format is known here. A deck is read by `striae-deck`, which maps the
-//! paths of faults back to lines and columns.
+//! No file format is known here. A deck is read by `striae-deck`, which maps the paths of faults
+//! back to lines and columns.
 
 mod build;
 mod check;

@@ -22,7 +22,7 @@ pub struct RigidMotions {
 }
 
 impl RigidMotions {
-    /// Those of a body that nothing stops.
+    /// Motions of an unrestrained body.
     pub fn of(mesh: &Mesh) -> Self {
         Self::around(mesh.positions.iter())
     }
@@ -46,7 +46,7 @@ impl RigidMotions {
         self.normal += row * row.transpose();
     }
 
-    /// How many motions are left.
+    /// Number of motions that are left.
     pub fn left(&self) -> usize {
         let eigenvalues = self.normal.symmetric_eigenvalues();
         let largest = eigenvalues.max();

@@ -95,7 +95,7 @@ fn line(target: Target, counts: &Counts) -> String {
     )
 }
 
-/// Tries a chunk; after a crash or a hang another worker goes on with the next seed.
+/// Tries a chunk; after a crash or a hang another worker continues with the next seed.
 fn chunk(options: &Options, start: u64, end: u64, tally: &Mutex<Tally>) -> io::Result<()> {
     let mut next = start;
     while next < end {

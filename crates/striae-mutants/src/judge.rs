@@ -17,11 +17,11 @@ use crate::target::{Sample, Target};
 /// Stage that an input reaches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reached {
-    /// It is refused.
+    /// The input is refused.
     Refused,
-    /// It is read.
+    /// The input is read.
     Accepted,
-    /// It has begun to run.
+    /// The input has begun to run.
     Run,
 }
 
@@ -50,9 +50,9 @@ pub struct Finding {
 /// Depth to which accepted decks are tried.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Depth {
-    /// They are checked.
+    /// Decks are checked.
     Check,
-    /// They are run for an increment, if they are small.
+    /// Decks are run for an increment, if they are small.
     Run,
 }
 

@@ -58,7 +58,7 @@ impl Target {
     /// The targets of a list of names with commas; `meshes` and `all` are several.
     ///
     /// # Errors
-    /// The name that is none.
+    /// The name that is not known.
     pub fn listed(names: &str) -> Result<Vec<Self>, String> {
         let mut targets = Vec::new();
         for name in names.split(',') {

@@ -13,8 +13,8 @@ use crate::{
     vtk::{Array, Cells, Grid, Values},
 };
 
-/// A body with the fields that are asked for. Those of stress, strain and energy are left
-/// out where the state has none. Collective.
+/// A body with the requested fields. Those of stress, strain and energy are left out if the state
+/// has none. Collective.
 pub(crate) fn body_grid<'a>(
     problem: &'a Problem,
     state: &'a State,
@@ -55,7 +55,7 @@ pub(crate) fn body_grid<'a>(
     grid
 }
 
-/// Tensors at the nodes, as far as they are asked for and known.
+/// Tensors at the nodes, as far as they are requested and known.
 struct Tensors {
     stress: Option<Vec<Matrix3<f64>>>,
     strain: Option<Vec<Matrix3<f64>>>,

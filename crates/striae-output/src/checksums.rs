@@ -9,14 +9,14 @@ use crate::OutputError;
 /// Length and CRC-32 of files, by their paths in the folder of the run.
 pub type Checksums = Vec<(String, [u64; 2])>;
 
-/// Length and checksum of a file as it is now.
+/// Present length and checksum of a file.
 pub(crate) fn sum(folder: &Path, name: &Path) -> Result<(String, [u64; 2]), OutputError> {
     let bytes = content(&folder.join(name))?;
     let sum = [bytes.len() as u64, u64::from(crc32fast::hash(&bytes))];
     Ok((name.to_string_lossy().into_owned(), sum))
 }
 
-/// Whether all files begin with what they had in them; tables may have grown since.
+/// Checks that all files begin with their recorded content; tables may have grown since.
 pub(crate) fn check(folder: &Path, sums: &Checksums) -> Result<(), OutputError> {
     for (name, [length, sum]) in sums {
         let path = folder.join(name);

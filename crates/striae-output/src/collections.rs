@@ -33,19 +33,18 @@ pub(crate) struct Collections {
     sums: Checksums,
 }
 
-/// What is written of contact beside the state.
+/// Contact quantities that are written besides the state.
 pub(crate) struct Contact<'a> {
     /// Results at the nodes, by pair and side.
     pub nodes: &'a [&'a [Vec<NodeResult>; 2]],
-    /// What slip has done.
+    /// Sums over slip.
     pub worn: &'a Worn,
     /// Time of the last increment.
     pub elapsed: f64,
 }
 
 impl Collections {
-    /// Collections that go on from what has been written: bodies, contact, rigid surfaces,
-    /// ties.
+    /// Collections that continue what has been written: bodies, contact, rigid surfaces, ties.
     pub(crate) fn resumed(folder: &Path, series: &[Vec<Snapshot>; 4], sums: Checksums) -> Self {
         let [bodies, contact, rigid, ties] = series.clone();
         Self {
@@ -59,7 +58,7 @@ impl Collections {
         }
     }
 
-    /// What has been written: bodies, contact, rigid surfaces, ties.
+    /// Snapshots written so far: bodies, contact, rigid surfaces, ties.
     pub(crate) fn snapshots(&self) -> [&[Snapshot]; 4] {
         [&self.bodies, &self.contact, &self.rigid, &self.ties].map(Series::snapshots)
     }
@@ -83,8 +82,8 @@ impl Collections {
         Ok(())
     }
 
-    /// Writes the bodies that are asked for, after so many increments; collective, as ranks
-    /// write their pieces.
+    /// Writes the requested bodies, after so many increments; collective, as ranks write their
+    /// pieces.
     pub(crate) fn write_bodies(
         &mut self,
         problem: &Problem,

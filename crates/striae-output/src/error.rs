@@ -1,10 +1,10 @@
-//! Why results could not be written or read back.
+//! Errors of writing results and reading them back.
 
 use std::path::PathBuf;
 
 use striae_files::FileError;
 
-/// What can go wrong while writing results or reading them back.
+/// Error while writing results or reading them back.
 #[derive(Debug, thiserror::Error)]
 pub enum OutputError {
     /// A file cannot be written or read.
@@ -15,7 +15,7 @@ pub enum OutputError {
     Elsewhere {
         /// The rank.
         rank: usize,
-        /// What it says.
+        /// Message of the rank.
         cause: String,
     },
     /// The content of a file is not what it should be.
@@ -23,11 +23,11 @@ pub enum OutputError {
     Content {
         /// The file.
         path: PathBuf,
-        /// What is wrong, and where.
+        /// Description of the fault, and its place.
         cause: String,
     },
     /// A file of a run is not what the run wrote.
-    #[error("{} is damaged: it has changed or shrunk since the run wrote it; restore it, or run the deck anew", .0.display())]
+    #[error("{} is damaged: it has changed or shrunk since the run wrote it; restore it, or run the deck again", .0.display())]
     Damaged(PathBuf),
     /// The folder of a new run holds results.
     #[error("{} holds the results of an earlier run; choose another folder, or replace them with `--overwrite`", .0.display())]
@@ -42,9 +42,9 @@ pub enum OutputError {
         path: PathBuf,
         /// The array.
         array: String,
-        /// How many points or cells there are.
+        /// Number of points or cells.
         expected: usize,
-        /// How many values it has.
+        /// Number of its values.
         found: usize,
     },
     /// Two arrays, columns or entries share one name.
@@ -64,11 +64,11 @@ pub enum OutputError {
         cell: usize,
         /// The point it names.
         point: usize,
-        /// How many points there are.
+        /// Number of points.
         points: usize,
     },
     /// A row of a history has other columns than the first one.
-    #[error("{}: row {row} has {found} where column `{expected}` is due", path.display())]
+    #[error("{}: row {row} has {found} where column `{expected}` is expected", path.display())]
     Column {
         /// The file being written.
         path: PathBuf,
@@ -76,7 +76,7 @@ pub enum OutputError {
         row: usize,
         /// The column of the first row.
         expected: String,
-        /// What the row has in its place.
+        /// Column that the row has in its place.
         found: String,
     },
 }

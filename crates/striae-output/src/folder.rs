@@ -18,17 +18,17 @@ use crate::{
     removal::{remove_where, removed},
 };
 
-/// What becomes of the results of an earlier run.
+/// Treatment of the results of an earlier run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Existing {
-    /// They stay, and the new run does not begin.
+    /// The results are kept, and the new run does not begin.
     #[default]
     Keep,
-    /// They are removed before the new run begins.
+    /// The results are removed before the new run begins.
     Replace,
 }
 
-/// How long a run that goes on waits for the one before it to end.
+/// Time that a resumed run waits for the previous one to end.
 const PATIENCE: Duration = Duration::from_secs(3);
 
 /// Files by which results are known.
@@ -53,8 +53,7 @@ pub(crate) struct Claim {
 }
 
 impl Claim {
-    /// A folder with results, to go on with. What a run that was killed has not finished
-    /// writing is removed.
+    /// A folder with results, to continue. Unfinished files of a run that was killed are removed.
     pub(crate) fn of(folder: &Path) -> Result<Self, OutputError> {
         let file = File::open(folder).ok();
         let lock = file.as_ref().map(File::try_lock);
@@ -82,7 +81,7 @@ impl Claim {
         }
     }
 
-    /// A folder for a new run, made where there is none.
+    /// A folder for a new run, made if there is none.
     pub(crate) fn new(folder: &Path, existing: Existing) -> Result<Self, OutputError> {
         let fields = folder.join("fields");
         fs::create_dir_all(&fields).map_err(|cause| FileError::Write {

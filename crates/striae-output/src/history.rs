@@ -202,13 +202,13 @@ fn line<'a>(numbers: impl Iterator<Item = (&'a str, f64)>) -> String {
     shortest.join(",") + "\n"
 }
 
-/// Whether the numbers of a column count something.
+/// Returns whether the numbers of a column are counts.
 fn is_count(column: &str) -> bool {
     let last = column.rsplit('.').next();
     last.is_some_and(|last| COUNTS.contains(&last))
 }
 
-/// Whether all digits of a number are before the point and known.
+/// Returns whether all digits of a number are before the point and known.
 fn is_whole(number: f64) -> bool {
     const LARGEST: f64 = (1_u64 << f64::MANTISSA_DIGITS) as f64;
     number.fract() == 0.0 && number.abs() <= LARGEST
@@ -219,7 +219,7 @@ fn row(line: &str, columns: usize) -> Result<Vec<f64>, String> {
         .split(',')
         .map(|field| {
             let number = field.trim().parse();
-            number.map_err(|_| format!("`{field}` is no number"))
+            number.map_err(|_| format!("`{field}` is not a number"))
         })
         .collect::<Result<_, _>>()?;
     if numbers.len() == columns {
@@ -321,7 +321,7 @@ mod tests {
         let path = directory.path().join("history.csv");
         std::fs::write(&path, "a,b\n1,2\n1,x\n").unwrap();
         let error = Table::read(&path).unwrap_err().to_string();
-        assert!(error.ends_with("line 3: `x` is no number"), "{error}");
+        assert!(error.ends_with("line 3: `x` is not a number"), "{error}");
         std::fs::write(&path, "a,b\n1\n").unwrap();
         let error = Table::read(&path).unwrap_err().to_string();
         assert!(

@@ -1,7 +1,6 @@
-//! What a run leaves behind: VTK files, histories, summaries and checkpoints.
+//! Output of a run: VTK files, histories, summaries and checkpoints.
 //!
-//! [`recorder`] writes a run under way; [`expected`] judges quantities of one that
-//! has ended.
+//! [`recorder`] writes a run in progress; [`expected`] judges quantities of a completed one.
 
 mod bodies;
 pub mod checkpoint;

@@ -52,7 +52,7 @@ pub(crate) fn means(problem: &Problem, body: usize, own: Option<Sums<f64>>) -> O
     Some(means.map(|(value, volume)| value / volume).collect())
 }
 
-/// What a rank has, unless another one has nothing.
+/// Value of this rank, unless another rank has none.
 fn of_all<T>(problem: &Problem, own: Option<T>) -> Option<T> {
     match problem.share.any(own.is_none()) {
         true => None,

@@ -2,9 +2,9 @@
 
 use std::{fs::read_to_string, path::Path};
 
-/// Bytes that this process can take without swapping: those that the machine has for new
-/// programs, or fewer where a limit of the process or its control group is lower; `None` where
-/// the system does not tell (it is Linux that does).
+/// Bytes that this process can take without swapping: those that the machine has for new programs,
+/// or fewer where a limit of the process or its control group is lower; `None` if the system does
+/// not report it (only Linux does).
 pub fn available_bytes() -> Option<f64> {
     let of_machine = read_to_string("/proc/meminfo").ok();
     let of_machine = of_machine.and_then(|text| available(&text));

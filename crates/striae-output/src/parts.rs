@@ -24,7 +24,7 @@ pub(crate) struct Parts {
 }
 
 impl Parts {
-    /// Those of a problem.
+    /// Parts of a problem.
     pub fn new(problem: &Problem) -> Self {
         let model = &problem.model;
         let mut stems = Stems::default();
@@ -78,7 +78,7 @@ pub(crate) fn piece(part: &str, count: usize, rank: usize) -> PathBuf {
     PathBuf::from(format!("fields/{part}-{count:05}.{rank}.vtu"))
 }
 
-/// Whether a file is of an increment, whole or a piece.
+/// Returns whether a file belongs to an increment, whole or a piece.
 pub(crate) fn is_of(name: &str, increment: usize) -> bool {
     let stem = ["vtu", "pvtu"].into_iter().find_map(|end| {
         let stem = name.strip_suffix(end)?;

@@ -31,10 +31,10 @@ struct Placed {
 }
 
 impl Probes {
-    /// Finds all probes, and goes on with their file after so many rows; collective.
+    /// Finds all probes, and continues their file after so many rows; collective.
     ///
     /// # Errors
-    /// What is wrong with the first probe that is nowhere, or when there are no such rows.
+    /// Returns the fault of the first probe that is nowhere, or an error if there are no such rows.
     pub(crate) fn open(
         path: PathBuf,
         problem: &Problem,
@@ -181,15 +181,12 @@ fn shared_weights(
 /// Nodes with their weights.
 ///
 /// # Errors
-/// Why there are none.
+/// Returns why there are none.
 pub fn weights(mesh: &Mesh, place: &ProbePlace) -> Result<Vec<(NodeId, f64)>, String> {
     match place {
         ProbePlace::Point(x) => match mesh.locate(x) {
             Some(located) => Ok(located.weights),
-            None => Err(format!(
-                "({}, {}, {}) is outside of the body",
-                x.x, x.y, x.z
-            )),
+            None => Err(format!("({}, {}, {}) is outside the body", x.x, x.y, x.z)),
         },
         ProbePlace::Nodes(set) => match mesh.node_sets.get(set) {
             Some(nodes) if !nodes.is_empty() => {

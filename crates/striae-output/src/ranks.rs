@@ -1,8 +1,8 @@
-//! What ranks that write one run agree on.
+//! Agreement of ranks that write one run.
 //!
-//! Each rank writes its pieces, rank 0 all else. What fails on one rank fails on all: after
-//! each part that may fail they tell each other, so that none goes on alone and none waits for
-//! another that has given up. All functions here are collective.
+//! Each rank writes its pieces, rank 0 everything else. What fails on one rank fails on all: after
+//! each part that may fail the ranks inform each other, so that none continues alone and none waits
+//! for another that has given up. All functions here are collective.
 
 use std::fmt::Display;
 
@@ -11,10 +11,10 @@ use striae_solve::share::Share;
 
 use crate::OutputError;
 
-/// What a rank has come to, or what failed on another rank, the lowest one.
+/// Result of this rank, or the failure of another rank, the lowest one.
 ///
 /// # Errors
-/// When any rank has failed.
+/// If any rank has failed.
 pub fn agreed<T, E: Display + From<OutputError>>(share: &Share, own: Result<T, E>) -> Result<T, E> {
     if share.is_alone() {
         return own;
@@ -31,10 +31,10 @@ pub fn agreed<T, E: Display + From<OutputError>>(share: &Share, own: Result<T, E
     }
 }
 
-/// What rank 0 makes of it; nothing on others.
+/// Runs a piece of work on rank 0; the others do nothing.
 ///
 /// # Errors
-/// When it fails there.
+/// If it fails there.
 pub(crate) fn on_first<T, E: Display + From<OutputError>>(
     share: &Share,
     work: impl FnOnce() -> Result<T, E>,
@@ -42,10 +42,10 @@ pub(crate) fn on_first<T, E: Display + From<OutputError>>(
     agreed(share, is_first(share).then(work).transpose())
 }
 
-/// What rank 0 makes of it, on all ranks.
+/// Runs a piece of work on rank 0 and returns its result on all ranks.
 ///
 /// # Errors
-/// When it fails there.
+/// If it fails there.
 pub fn from_first<T, E>(share: &Share, work: impl FnOnce() -> Result<T, E>) -> Result<T, E>
 where
     T: Serialize + DeserializeOwned,
@@ -60,7 +60,7 @@ where
     Ok(first.expect("rank 0 has agreed to what it made"))
 }
 
-/// What every rank says, in the order of the ranks.
+/// Values of all ranks, in the order of the ranks.
 pub(crate) fn told<T: Serialize + DeserializeOwned>(share: &Share, own: &T) -> Vec<T> {
     let own = postcard::to_allocvec(own).expect("what ranks tell are plain values");
     let all = share.team().gather(&own);
@@ -68,7 +68,7 @@ pub(crate) fn told<T: Serialize + DeserializeOwned>(share: &Share, own: &T) -> V
     all.iter().map(read).collect()
 }
 
-/// Whether it is this rank that writes what there is once only.
+/// Returns whether this rank writes what exists only once.
 pub(crate) fn is_first(share: &Share) -> bool {
     share.team().rank() == 0
 }

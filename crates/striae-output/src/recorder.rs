@@ -15,8 +15,7 @@
 //! DIR/checkpoint.bin        where a run under way is, see [`crate::checkpoint`]
 //! ```
 //!
-//! All are also written as they are at time 0; of contact, gaps, normals and textures are
-//! known then.
+//! All are also written at time 0; gaps, normals and textures of contact are known then.
 //!
 //! Everything is on disk after each increment.
 //!
@@ -73,7 +72,7 @@ pub struct Recorder {
     history: Option<History>,
     fields: Collections,
     started: Instant,
-    /// When the last checkpoint was written, or the run began.
+    /// Time of the last checkpoint, or of the start of the run.
     kept: Instant,
     tally: Tally,
     written: Option<usize>,
@@ -98,10 +97,10 @@ impl Recorder {
         Self::shared(&Share::alone(), folder, case, output, existing)
     }
 
-    /// The same for one of several ranks.
+    /// Starts a recorder for one of several ranks.
     ///
     /// # Errors
-    /// When a file cannot be written, or the folder belongs to other results or another run.
+    /// If a file cannot be written, or the folder belongs to other results or another run.
     pub fn shared(
         share: &Share,
         folder: &Path,
@@ -128,7 +127,7 @@ impl Recorder {
         })
     }
 
-    /// Goes on where an earlier recorder was at a checkpoint.
+    /// Continues where an earlier recorder was at a checkpoint.
     ///
     /// # Errors
     /// When the output is not there, or cannot be written.
@@ -141,10 +140,10 @@ impl Recorder {
         Self::resume_shared(&Share::alone(), folder, case, output, written)
     }
 
-    /// The same for one of several ranks.
+    /// Resumes a recorder for one of several ranks.
     ///
     /// # Errors
-    /// When the output is not there, or cannot be written.
+    /// If the output is missing or cannot be written.
     pub fn resume_shared(
         share: &Share,
         folder: &Path,
@@ -185,10 +184,10 @@ impl Recorder {
         })
     }
 
-    /// What is on disk, for a checkpoint: nothing on ranks but the first.
+    /// Record of what is on disk, for a checkpoint: nothing on ranks other than the first.
     ///
     /// # Errors
-    /// When a file cannot be read back.
+    /// If a file cannot be read back.
     pub fn written(&self) -> Result<Written, OutputError> {
         let written = on_first(&self.share, || self.written_here())?;
         Ok(written.unwrap_or_default())
@@ -218,8 +217,8 @@ impl Recorder {
         })
     }
 
-    /// Whether a checkpoint is due after so many increments; ranks may say otherwise, as each has
-    /// a clock of its own.
+    /// Returns whether a checkpoint is due after so many increments; ranks may disagree, as each
+    /// has its own clock.
     pub fn keeps(&self, increment: usize) -> bool {
         let is_late = || self.kept.elapsed() >= KEPT;
         let every = self.output.checkpoint_every;
@@ -296,7 +295,7 @@ impl Recorder {
         }
     }
 
-    /// Whether a multiple of the interval lies between the last fields and now.
+    /// Returns whether a multiple of the interval lies between the last fields and now.
     fn has_passed(&self, interval: f64, time: f64) -> bool {
         let series = self.fields.snapshots().into_iter();
         let last = series.filter_map(<[Snapshot]>::last);

@@ -83,7 +83,7 @@ pub fn state_row(problem: &Problem, state: &State) -> Vec<(String, f64)> {
     row
 }
 
-/// Whether any step has inertia.
+/// Returns whether any step has inertia.
 fn is_dynamic(problem: &Problem) -> bool {
     let mut steps = problem.model.steps.iter();
     steps.any(|step| step.procedure != Procedure::QuasiStatic)

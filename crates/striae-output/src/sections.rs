@@ -37,10 +37,10 @@ pub fn cut(mesh: &Mesh, section: &Section) -> Result<Cut, SectionError> {
 }
 
 impl Sections {
-    /// Makes all cuts, and goes on with their file after so many rows.
+    /// Makes all cuts, and continues their file after so many rows.
     ///
     /// # Errors
-    /// What is wrong with the first cut, or when there are no such rows.
+    /// Returns the fault of the first cut, or an error if there are no such rows.
     pub(crate) fn open(
         path: PathBuf,
         problem: &Problem,

@@ -1,14 +1,14 @@
-//! What a run writes, and how often.
+//! Settings of the output: what a run writes, and how often.
 
 use serde::Serialize;
 use std::num::NonZeroUsize;
 
 use striae_mesh::Vec3;
 
-/// What a run writes.
+/// Output of a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Output {
-    /// When fields are written.
+    /// Increments or times at which fields are written.
     pub fields: FieldOutput,
     /// Names of the bodies whose fields are written; `None`: all.
     pub bodies: Option<Vec<String>>,
@@ -19,7 +19,7 @@ pub struct Output {
     /// Archard's coefficient `k`, wear depth over pressure and slip; `None`: wear is not
     /// written.
     pub wear_coefficient: Option<f64>,
-    /// What is written to `probes.csv` after every increment.
+    /// Probes written to `probes.csv` after every increment.
     pub probes: Vec<Probe>,
     /// Cuts whose forces are written to `sections.csv` after every increment.
     pub sections: Vec<Section>,
@@ -43,7 +43,7 @@ impl Default for Output {
     }
 }
 
-/// When fields are written.
+/// Increments or times at which fields are written.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum FieldOutput {
     /// After every so many increments, and after the last.
@@ -77,7 +77,7 @@ pub enum BodyField {
     PrincipalStrainDirections,
     /// Stored energy per reference volume of the elements at each node.
     StrainEnergyDensity,
-    /// What materials remember, as far as it has a name, by element.
+    /// Internal variables of materials that have a name, by element.
     HistoryVariables,
     /// Number of the section of each element, 0 where it is of the body's own material; of
     /// bodies with sections.
@@ -88,7 +88,7 @@ pub enum BodyField {
 }
 
 impl BodyField {
-    /// What is written unless something else is chosen.
+    /// Fields written by default.
     pub const USUAL: [Self; 7] = [
         Self::Displacement,
         Self::Velocity,
@@ -128,7 +128,7 @@ pub enum ContactField {
 }
 
 impl ContactField {
-    /// What is written unless something else is chosen: all but the slip rate.
+    /// Fields written by default: all except the slip rate.
     pub const USUAL: [Self; 10] = [
         Self::Gap,
         Self::Traction,
@@ -150,11 +150,11 @@ pub struct Probe {
     pub name: String,
     /// Name of the body.
     pub body: String,
-    /// Where it is.
+    /// Place of the probe.
     pub place: ProbePlace,
 }
 
-/// Where a probe is.
+/// Place of a probe.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum ProbePlace {
     /// A material point, by its place in the reference configuration.

@@ -13,14 +13,14 @@ use striae_solve::warning::Warning;
 use crate::OutputError;
 use striae_files::{read_text, write_atomically};
 
-/// What a run came to.
+/// Summary of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
     /// Name of the case.
     pub case: String,
     /// Version of the program.
     pub version: String,
-    /// How the run ended.
+    /// Ending of the run.
     pub status: Status,
     /// The ending in a sentence.
     pub reason: String,
@@ -40,7 +40,7 @@ pub struct Summary {
     pub solver: SolverSummary,
     /// Time on the wall clock, s.
     pub wall_s: f64,
-    /// Largest resident memory, MiB, where the system tells.
+    /// Largest resident memory, MiB, if the system reports it.
     pub peak_rss_mib: Option<f64>,
     /// Contact pairs.
     pub pairs: Vec<PairSummary>,
@@ -49,7 +49,7 @@ pub struct Summary {
     pub ties: Vec<TieSummary>,
     /// Reaction of every node set with prescribed displacements.
     pub reactions: BTreeMap<String, [f64; 3]>,
-    /// What makes the results doubtful.
+    /// Warnings: reasons to doubt the results.
     #[serde(default)]
     pub warnings: Vec<WarningSummary>,
 }
@@ -84,10 +84,10 @@ impl From<Warning> for WarningSummary {
     }
 }
 
-/// What the linear systems took.
+/// Work spent on the linear systems.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SolverSummary {
-    /// How the last one was factored: `condensed`, `multifrontal` or `faer`.
+    /// Method of the last factorisation: `condensed`, `multifrontal` or `faer`.
     pub method: String,
     /// Factorisations in all accepted increments.
     pub factorisations: usize,
@@ -97,19 +97,19 @@ pub struct SolverSummary {
     pub krylov_iterations: usize,
     /// Seconds on the clock for residuals and matrices in all accepted increments.
     pub assembly_s: f64,
-    /// The same for factorisations and preconditioners.
+    /// Seconds spent on factorisations and preconditioners.
     pub factorisation_s: f64,
-    /// The same for solutions with refinement.
+    /// Seconds spent on solutions with refinement.
     pub solution_s: f64,
-    /// The same for contact on linearised bodies.
+    /// Seconds spent on contact with linearised bodies.
     pub contact_s: f64,
-    /// Accepted increments in which another solver stood in for the one that was asked for.
+    /// Accepted increments in which another solver replaced the requested one.
     pub fall_backs: usize,
-    /// Why it last did.
+    /// Reason of the last change of solver.
     pub reason: Option<String>,
 }
 
-/// How a run ended.
+/// Ending of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
@@ -160,7 +160,7 @@ pub struct TieSummary {
     pub moment_mismatch: f64,
     /// Reference area that is tied.
     pub area: f64,
-    /// How far nodes were moved, before anything else, to where they belong.
+    /// Distance that nodes were moved, before anything else, to their places on the other surface.
     pub moved: f64,
 }
 

@@ -16,13 +16,13 @@ use crate::{
     worn::Sums,
 };
 
-/// What is written of a side of a pair beside its state.
+/// Quantities written of a side of a pair besides its state.
 pub(crate) struct Wanted<'a> {
     /// Fields.
     pub fields: &'a [ContactField],
     /// Coefficient of wear, if one is known.
     pub wear: Option<f64>,
-    /// What slip has done to the nodes.
+    /// Sums over slip at the nodes.
     pub worn: &'a [Sums],
     /// Results at the nodes, by side.
     pub nodes: &'a [Vec<NodeResult>; 2],
@@ -30,7 +30,7 @@ pub(crate) struct Wanted<'a> {
     pub elapsed: f64,
 }
 
-/// Writes a side of a pair as it is in a state.
+/// Writes a side of a pair in a state.
 pub(crate) fn write_surface(
     path: &Path,
     problem: &Problem,
@@ -129,7 +129,7 @@ fn arrays(
     }
 }
 
-/// Which nodes are kept.
+/// Roles of the nodes.
 fn roles(state: &State, (pair, side): (usize, Side)) -> Vec<(&'static str, Values)> {
     let kept = state.pairs[pair].kept[side].iter().copied().map(u8::from);
     vec![("kept", Values::Codes(kept.collect()))]

@@ -1,4 +1,4 @@
-//! What a run has come to so far, whether or not it is written to files.
+//! Totals of a run so far, written to files or not.
 
 use striae_solve::{
     newton::{Increment, LinearWork},
@@ -23,9 +23,9 @@ pub struct Tally {
     pub cut_backs: usize,
     /// Unknowns of the last system.
     pub unknowns: usize,
-    /// What the linear systems took.
+    /// Work spent on the linear systems.
     pub solver: SolverSummary,
-    /// What has been judged so far.
+    /// Warnings gathered so far.
     pub judgement: Judgement,
 }
 

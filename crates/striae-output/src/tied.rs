@@ -15,7 +15,7 @@ use crate::{
     vtk::{Array, Cells, Grid, Values, write},
 };
 
-/// Writes a side of a tie as it is in a state, with the tractions at its nodes.
+/// Writes a side of a tie in a state, with the tractions at its nodes.
 pub(crate) fn write_tied(
     path: &Path,
     problem: &Problem,

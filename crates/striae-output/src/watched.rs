@@ -9,17 +9,17 @@ use crate::{Output, OutputError, probes::Probes, sections::Sections};
 /// Names of the files.
 pub(crate) const FILES: [&str; 2] = ["probes.csv", "sections.csv"];
 
-/// What is watched, with its files.
+/// Probes and sections, with their files.
 pub(crate) struct Watched {
     probes: Option<Probes>,
     sections: Option<Sections>,
 }
 
 impl Watched {
-    /// Finds what is asked for, and goes on with the files after so many rows.
+    /// Finds everything that is requested, and continues the files after so many rows.
     ///
     /// # Errors
-    /// What is not there, or when there are no such rows.
+    /// Returns what is missing, or an error if there are no such rows.
     pub(crate) fn open(
         folder: &Path,
         problem: &Problem,

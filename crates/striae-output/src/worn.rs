@@ -1,4 +1,4 @@
-//! What slip has done to the nodes of contact surfaces since the start of a run.
+//! Slip history of the nodes of contact surfaces since the start of a run.
 //!
 //! Over the increments with the slip `du`, pressure `p` and friction traction `tau`
 //!

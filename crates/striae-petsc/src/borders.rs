@@ -7,7 +7,7 @@ use crate::{
 use std::sync::Arc;
 use striae_condensed::{Numbering, Tangent};
 
-/// Which unknowns of a part are this rank's own, and whose values come from others.
+/// Unknowns of a part that this rank owns, and unknowns whose values come from others.
 #[derive(Debug)]
 pub(crate) struct Borders {
     /// Unknown of the part of each of this rank's own.
@@ -91,7 +91,7 @@ impl Borders {
         self.scatter.bring(&self.buffer, own, sum)
     }
 
-    /// The same, and what becomes of them back to all.
+    /// Combines shared values and returns the result to all ranks.
     pub(crate) fn join(&mut self, part: &mut [f64], sum: Sum) -> Result<(), Error> {
         let mut own = vec![0.0; self.own.len()];
         self.collect(part, &mut own, sum)?;
@@ -99,7 +99,7 @@ impl Borders {
     }
 }
 
-/// How vectors of the whole system lie.
+/// Layout of vectors of the whole system.
 pub(crate) fn lay(numbering: &Numbering) -> Lay {
     Lay {
         first: numbering.own.start,

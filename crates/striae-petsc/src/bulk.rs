@@ -15,7 +15,7 @@ use striae_condensed::{Partition, Tangent};
 use striae_solve::team::Team;
 use striae_sparse::aggregation::MODES;
 
-/// A part of the bulk, as it is scaled.
+/// A scaled part of the bulk.
 pub(crate) struct Bulk<'a> {
     pub(crate) partition: &'a Partition,
     pub(crate) nodes: &'a Nodes,
@@ -26,10 +26,10 @@ pub(crate) struct Bulk<'a> {
     pub(crate) prescribed: &'a [bool],
 }
 
-/// What takes the place of the inverse.
+/// Substitute for the inverse.
 #[derive(Debug)]
 pub(crate) enum Inverse {
-    /// What options say.
+    /// Preconditioner selected by options.
     Chosen(Cycle),
     /// Own aggregates, with vectors of own unknowns.
     Usual(Box<Finest>, [Vec<f32>; 2]),
@@ -58,7 +58,7 @@ struct Rows<'a> {
 }
 
 impl Rows<'_> {
-    /// What the bodies have in the row of an own node, with the stiffness of constraints.
+    /// Entries of the bodies in the row of an own node, with the stiffness of constraints.
     fn add(&self, k: usize, entries: &mut Vec<Entry<9>>) {
         let Bulk {
             nodes, partition, ..
@@ -85,7 +85,7 @@ impl Rows<'_> {
 }
 
 impl Bulk<'_> {
-    /// What takes the place of its inverse; `None` where it is not definite.
+    /// Substitute for the inverse; `None` if the matrix is not definite.
     pub(crate) fn inverse(
         &self,
         library: &Arc<Library>,
@@ -137,7 +137,7 @@ impl Bulk<'_> {
         own.map(|&i| of[i as usize]).collect()
     }
 
-    /// What other ranks add to this rank's rows.
+    /// Contributions of other ranks to this rank's rows.
     fn foreign(&self, team: &dyn Team) -> Foreign<9> {
         let nodes = self.nodes;
         let rows = nodes.of.iter().enumerate();

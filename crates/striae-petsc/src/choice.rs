@@ -1,6 +1,6 @@
-//! Which of PETSc's solvers is taken.
+//! Choice of PETSc's solvers.
 
-/// Which of PETSc's solvers is taken.
+/// Choice of PETSc's solvers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Choice {
     /// MUMPS for systems of few unknowns, else FGMRES, and MUMPS where that fails.

@@ -44,7 +44,7 @@ struct Incidence {
     entry: u32,
 }
 
-/// A part of a system whose interface is looked for.
+/// A part of a system whose interface is sought.
 #[derive(Clone, Copy)]
 pub(crate) struct Part<'a> {
     pub(crate) partition: &'a Partition,

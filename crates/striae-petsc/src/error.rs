@@ -1,4 +1,4 @@
-//! What can go wrong with MPI and PETSc.
+//! Errors of MPI and PETSc.
 
 use striae_solve::team::Team;
 use striae_sparse::SolveError;
@@ -14,7 +14,7 @@ pub enum Error {
     #[error("MPI has been started before")]
     Started,
     /// MPI does not let several threads call it, not even one after the other.
-    #[error("this MPI lets only the main thread call it")]
+    #[error("this MPI can only be called by the main thread")]
     Threads,
     /// PETSc was built with other kinds of numbers.
     #[error(
@@ -33,7 +33,7 @@ pub enum Error {
     Petsc {
         /// Its error code.
         code: i32,
-        /// What it says.
+        /// Text of the error.
         message: String,
     },
 }
@@ -51,7 +51,7 @@ impl From<Error> for SolveError {
     }
 }
 
-/// What all ranks agree on: the first error in the order of the ranks, if there is any.
+/// Result that all ranks agree on: the first error in the order of the ranks, if any.
 pub(crate) fn agreed<T>(team: &dyn Team, own: Result<T, SolveError>) -> Result<T, SolveError> {
     let words = own.as_ref().err().map_or([0.0; 3], words);
     let bytes: Vec<u8> = words.into_iter().flat_map(f64::to_le_bytes).collect();

@@ -4,7 +4,7 @@ use crate::binding::Entry;
 use std::collections::HashMap;
 use striae_solve::team::Team;
 
-/// What other ranks add to this rank's rows, by the number of the row in the whole matrix.
+/// Contributions of other ranks to this rank's rows, by the number of the row in the whole matrix.
 pub(crate) type Foreign<const AREA: usize> = HashMap<u32, Vec<Entry<AREA>>>;
 
 /// First row of every rank, of which this one has so many, and the end of all.

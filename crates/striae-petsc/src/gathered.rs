@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use striae_condensed::Group;
 use striae_sparse::Tier;
 
-/// What all ranks know of the interface.
+/// Data of the interface that all ranks hold.
 pub(crate) struct Gathered {
     pub(crate) groups: Vec<Group>,
     pub(crate) entries: Vec<(u32, u32, f64)>,
@@ -21,7 +21,8 @@ pub(crate) struct Gathered {
 }
 
 impl Gathered {
-    /// From what ranks tell of groups: node, tier, multipliers with both their numbers.
+    /// Builds it from the groups that ranks report: node, tier, multipliers with both their
+    /// numbers.
     pub(crate) fn new(words: impl Iterator<Item = u32>) -> Self {
         let mut gathered = Self {
             groups: Vec::new(),

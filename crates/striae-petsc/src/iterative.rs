@@ -1,8 +1,9 @@
 //! FGMRES on the whole system, with the block factorisation as its preconditioner.
 //!
-//! The same as the [iterative solver](striae_condensed) of one rank, whose module docs give
-//! the formulas: only that the matrix is never put together, one cycle of PETSc's multigrid
-//! is the inverse of the bodies, and all ranks factor the contact system alike.
+//! The method is that of the [iterative solver](striae_condensed) on one rank, whose module docs
+//! give the formulas, except that the matrix is never assembled on one rank, one cycle of PETSc's
+//! multigrid approximates the inverse of the bodies, and every rank factors a copy of the contact
+//! system.
 
 use crate::{
     binding::{Krylov, Sum},
@@ -20,7 +21,7 @@ use striae_sparse::{Age, Equilibration, SolveError, SolveReport, root};
 
 /// Iterations at most.
 const MOST: usize = 600;
-/// Times that the true residual is looked at.
+/// Number of times that the true residual is evaluated.
 const LOOKS: usize = 5;
 /// Reduction of the residual between looks; more is lost to round-off.
 const GAIN: f64 = 1e-10;

@@ -1,9 +1,9 @@
 //! A level of the cycle on the bodies, with aggregates of its own.
 //!
-//! They do not reach over contact: bodies that slide on each other keep motions of their
-//! own. PETSc's aggregation would not know that, as what constraints couple is as strong as
-//! elements are. Aggregates do not reach over ranks either. When few unknowns are left the
-//! coarser levels are PETSc's.
+//! Aggregates do not extend across contact: bodies that slide on each other keep their own motions.
+//! PETSc's aggregation would not respect that, as couplings of constraints are as strong as those
+//! of elements. Aggregates do not reach over ranks either. When few unknowns are left the coarser
+//! levels are PETSc's.
 
 use crate::{
     binding::{Cycle, Entry, Lay, Library, Matrix, Side},
@@ -25,8 +25,8 @@ const COARSE: usize = MODES * MODES;
 /// The finest level: three unknowns a node.
 pub(crate) type Finest = Level<3, 9, { 3 * MODES }>;
 
-/// A matrix of `N` unknowns a node with a cycle in the place of its inverse. Blocks have
-/// `AREA` values, `N` by `N`, and those of the interpolation `WIDE`, `N` by [`MODES`].
+/// A matrix of `N` unknowns a node with a cycle as a substitute for its inverse. Blocks have `AREA`
+/// values, `N` by `N`, and those of the interpolation `WIDE`, `N` by [`MODES`].
 #[derive(Debug)]
 pub(crate) struct Level<const N: usize, const AREA: usize, const WIDE: usize> {
     level: SharedLevel<N>,
@@ -37,7 +37,7 @@ pub(crate) struct Level<const N: usize, const AREA: usize, const WIDE: usize> {
     x: Vec<f32>,
 }
 
-/// What takes the place of the inverse of the next level.
+/// Substitute for the inverse of the next level.
 #[derive(Debug)]
 enum Coarser {
     Level(Box<Level<MODES, COARSE, COARSE>>),
@@ -48,7 +48,7 @@ enum Coarser {
 /// Lists what is in one of this rank's rows, in any order, where blocks of one column add up.
 type Row<'a, const AREA: usize> = &'a (dyn Fn(usize, &mut Vec<Entry<AREA>>) + Sync);
 
-/// Where the rows of a level lie.
+/// Layout of the rows of a level.
 #[derive(Clone, Copy)]
 pub(crate) struct Problem<'a> {
     pub(crate) library: &'a Arc<Library>,
@@ -58,8 +58,8 @@ pub(crate) struct Problem<'a> {
     pub(crate) depth: usize,
 }
 
-/// What is known of own nodes: the near-kernel, as many rows as a node has unknowns by six,
-/// and the connected part that each is of.
+/// Data of own nodes: the near-kernel, with as many rows as a node has unknowns and six columns,
+/// and the connected part of each node.
 #[derive(Clone, Copy)]
 pub(crate) struct Kernel<'a> {
     pub(crate) motions: &'a [f64],
@@ -156,7 +156,7 @@ impl<const N: usize, const AREA: usize, const WIDE: usize> Level<N, AREA, WIDE> 
 }
 
 impl Coarser {
-    /// The same, of vectors with others' places after the own ones.
+    /// Applies the level to vectors with others' places after the own ones.
     fn apply(&mut self, b: &[f32], x: &mut [f32]) -> Result<(), Error> {
         match self {
             Self::Level(level) => {
@@ -174,7 +174,7 @@ impl Coarser {
 }
 
 impl Problem<'_> {
-    /// This rank's rows, and the nodes of others that they name.
+    /// Rows of this rank, and the nodes of others that they refer to.
     fn rows<const N: usize, const AREA: usize>(
         &self,
         row: Row<'_, AREA>,
@@ -277,8 +277,8 @@ impl Problem<'_> {
         })
     }
 
-    /// What takes the place of the inverse of this level, from what all ranks add to its
-    /// matrix; `None` where that is not definite.
+    /// Substitute for the inverse of this level, from the contributions of all ranks to its matrix;
+    /// `None` if that is not definite.
     fn solved(
         &self,
         part: &Blocks<MODES, MODES, f64>,

@@ -22,9 +22,8 @@
 //!
 //! # Faults
 //!
-//! All functions are collective, and errors that PETSc reports come back on all ranks. A
-//! rank that panics takes all others down with it: MPI knows no other way to leave those
-//! that wait.
+//! All functions are collective, and errors that PETSc reports come back on all ranks. A rank that
+//! panics takes all others down with it: MPI has no other way to leave those that wait.
 
 #[cfg(feature = "petsc")]
 mod binding;

@@ -29,7 +29,8 @@ pub(crate) struct Nodes {
     pub(crate) places: Vec<u32>,
 }
 
-/// Whether a part can be seen by nodes: bulk unknowns are three or none.
+/// Returns whether a part can be numbered by nodes: each supervariable has three bulk unknowns or
+/// none.
 pub(crate) fn is_nodal(partition: &Partition) -> bool {
     (0..partition.supervariables()).all(|i| [0, 3].contains(&partition.bulk_group(i).len()))
 }
@@ -89,17 +90,17 @@ impl Nodes {
         })
     }
 
-    /// Whether an inner number is that of a multiplier.
+    /// Returns whether an inner number is that of a multiplier.
     pub(crate) fn is_multiplier(&self, inner: u32) -> bool {
         inner as usize >= 3 * self.lay.total
     }
 
-    /// Whether a node is this rank's own.
+    /// Returns whether this rank owns a node.
     pub(crate) fn is_own(&self, node: u32) -> bool {
         (self.lay.first..self.lay.first + self.lay.own).contains(&(node as usize))
     }
 
-    /// The same as a number of unknowns.
+    /// Layout in unknowns instead of nodes.
     pub(crate) fn lay_of_unknowns(&self) -> Lay {
         Lay {
             first: 3 * self.lay.first,

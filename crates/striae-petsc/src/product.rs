@@ -25,8 +25,8 @@ pub(crate) struct Residual {
 }
 
 impl Residual {
-    /// Whether an answer will do: its scaled residual, of some size, is as small as is wanted,
-    /// or at round-off, where it cannot become much smaller.
+    /// Returns whether a solution suffices: its scaled residual is below the wanted value, or at
+    /// round-off, where it cannot become much smaller.
     pub(crate) fn suffices(&self, size: f64, wanted: f64) -> bool {
         size <= wanted || self.backward_error <= ROUND_OFF
     }

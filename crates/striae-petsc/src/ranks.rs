@@ -97,7 +97,7 @@ impl Ranks {
         (SimpleCommunicator::world(), turn)
     }
 
-    /// What every rank gives, in the order of the ranks, where it fits into one call.
+    /// Values of all ranks, in the order of the ranks, if they fit into one call.
     fn gather_once<T: Equivalence + Clone>(&self, own: &[T], zero: T) -> Vec<Vec<T>> {
         let (world, _turn) = self.turn();
         let mut counts = vec![0_i32; self.0.size];
@@ -213,7 +213,7 @@ impl Team for Ranks {
     }
 }
 
-/// Where parts of so many entries start.
+/// Starts of parts with so many entries.
 fn starts(counts: &[i32]) -> Vec<i32> {
     let before = counts.iter().scan(0, |sum, &count| {
         let start = *sum;

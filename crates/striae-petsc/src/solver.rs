@@ -36,7 +36,7 @@ pub struct PetscSolver {
     ranks: Ranks,
 }
 
-/// What was analysed, and factors.
+/// Analysed system and its factors.
 #[derive(Debug)]
 struct System {
     partition: Partition,
@@ -67,7 +67,7 @@ impl PetscSolver {
         }
     }
 
-    /// Whether MUMPS may take over where FGMRES fails.
+    /// Returns whether MUMPS may take over where FGMRES fails.
     fn has_fall_back(&self, unknowns: usize) -> bool {
         unknowns <= MANY * self.ranks.size()
     }
@@ -137,7 +137,7 @@ impl PetscSolver {
         Ok(report)
     }
 
-    /// What is wrong with a matrix of this rank, as others cannot know.
+    /// Checks the matrix of this rank, as other ranks cannot.
     fn check(&self, part: &Tangent) -> Result<(), SolveError> {
         let system = self.system.as_ref().ok_or(SolveError::NotAnalysed)?;
         let is_known = system
@@ -162,7 +162,7 @@ impl PetscSolver {
         }
     }
 
-    /// What is wrong with the vectors of this rank.
+    /// Checks the vectors of this rank.
     fn check_vectors(&self, rhs: &[f64], x: &[f64]) -> Result<(), SolveError> {
         let system = self.system.as_ref().ok_or(SolveError::NotAnalysed)?;
         system.factored.as_ref().ok_or(SolveError::NotFactored)?;

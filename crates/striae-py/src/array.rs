@@ -58,7 +58,7 @@ pub fn nodes(array: &PyReadonlyArray1<'_, i64>) -> PyResult<Vec<NodeId>> {
 
 fn node(number: i64) -> PyResult<NodeId> {
     let id = u32::try_from(number).map(NodeId);
-    id.map_err(|_| PyValueError::new_err(format!("{number} is no number of a node")))
+    id.map_err(|_| PyValueError::new_err(format!("{number} is not the number of a node")))
 }
 
 /// Vectors as rows.

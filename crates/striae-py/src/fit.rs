@@ -26,7 +26,7 @@ type Measured<'py> = (
     PyReadonlyArray1<'py, f64>,
 );
 
-/// The same as arrays that leave.
+/// Columns as arrays handed to Python.
 type Columns<'py> = (
     Array1<'py, f64>,
     Array1<'py, f64>,

@@ -59,8 +59,8 @@ impl Friction {
         made("Tabulated", friction::Friction::tabulated(&radians, &mu))
     }
 
-    /// A law of one's own by the harmonics of its kernel over the angle between the textures.
-    /// It is judged by the battery of friction laws.
+    /// User-defined law by the harmonics of its kernel over the angle between the textures. The law
+    /// must pass the battery of friction laws.
     #[staticmethod]
     fn own(name: String, two: bool, harmonics: Vec<Harmonic>, mu: f64) -> PyResult<Self> {
         let law = Periodic::new(name.clone(), two, harmonics);

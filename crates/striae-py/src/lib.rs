@@ -1,9 +1,9 @@
 //! The native part of the Python package `striae`: meshes, laws, models, runs and results
 //! of the library of the same name, as Python's objects and numpy's arrays.
 //!
-//! What users see is written in Python (`python/striae`) and calls this module by plain
-//! names, numbers and arrays; nothing here is public. All arrays that leave are new ones
-//! that Python owns.
+//! The interface for users is written in Python (`python/striae`) and calls this module with plain
+//! names, numbers and arrays; nothing here is public. All returned arrays are new ones that Python
+//! owns.
 
 mod array;
 mod cells;

@@ -1,5 +1,5 @@
-//! What the thread that asked for a run does meanwhile: it answers to increments, and looks at
-//! the keyboard and at laws in Python.
+//! Work of the thread that started a run: responds to increments, and checks the keyboard and laws
+//! in Python.
 
 use std::{
     sync::{
@@ -17,23 +17,23 @@ use crate::{
     results::{Kept, Results},
 };
 
-/// Time between two looks at the keyboard.
+/// Time between two checks of the keyboard.
 const TICK: Duration = Duration::from_millis(50);
 
-/// The function of Python that is told of increments.
+/// The Python function that is called with increments.
 pub struct Callback {
     /// The function.
     pub function: Py<PyAny>,
-    /// What is computed.
+    /// Problem that is solved.
     pub problem: Arc<Problem>,
-    /// Where increments come from.
+    /// Source of increments.
     pub heard: Receiver<Arc<Kept>>,
-    /// Where answers go.
+    /// Target of responses.
     pub answer: Sender<Next>,
 }
 
 impl Callback {
-    /// Whether the run goes on after an increment.
+    /// Passes on an increment and returns whether the run continues.
     fn told(&self, kept: Arc<Kept>) -> PyResult<Next> {
         Python::attach(|py| {
             py.check_signals()?;

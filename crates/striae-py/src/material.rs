@@ -10,7 +10,7 @@ use crate::{fault::refused, raised::Raised, texture::Texture};
 pub struct Material(
     /// The material.
     pub bulk::Material,
-    /// What a function that states its law has raised.
+    /// Exception raised by a function that states its law.
     pub Option<Raised>,
 );
 
@@ -83,8 +83,9 @@ impl Material {
                 Stiffness::Linear(modulus) => bulk::FibreStiffness::Linear { modulus },
             };
             let direction = direction.fibres();
-            let direction = direction
-                .ok_or_else(|| refused(WHAT, "only lines along or around an axis can be turned"))?;
+            let direction = direction.ok_or_else(|| {
+                refused(WHAT, "only lines along or around an axis can be rotated")
+            })?;
             Ok(bulk::Fibres {
                 stiffness,
                 direction,
@@ -132,7 +133,7 @@ impl Material {
     }
 }
 
-/// How fibres take up stretch.
+/// Stiffness of fibres.
 #[derive(FromPyObject)]
 pub enum Stiffness {
     /// `k1`, `k2` and dispersion.

@@ -108,7 +108,7 @@ impl Mesh {
         for (row, quad) in corners::<4>(&quads)?.into_iter().enumerate() {
             let face = known.get(&sorted(quad)).ok_or_else(|| {
                 let numbers = quad.map(|node| node.0);
-                let text = format!("row {row}, {numbers:?}, is no face of the boundary");
+                let text = format!("row {row}, {numbers:?}, is not a face of the boundary");
                 refused(format!("facet set `{name}`"), text)
             })?;
             faces.push(*face);

@@ -40,11 +40,11 @@ use crate::{
 pub struct Model {
     /// The model.
     pub model: Arc<model::Model>,
-    /// What a deck says is to be written.
+    /// Output requested by a deck.
     pub output: Output,
     /// The deck, if that is all there is to the model.
     pub deck: Option<PathBuf>,
-    /// What functions that state laws have raised.
+    /// Exceptions raised by functions that state laws.
     pub raised: Vec<Raised>,
 }
 
@@ -209,7 +209,7 @@ impl Model {
         steps.map(|step| step.name.clone()).collect()
     }
 
-    /// Mesh of a body, as it is after gaps have been closed.
+    /// Mesh of a body after gaps have been closed.
     fn mesh(&self, body: usize) -> Mesh {
         Mesh(self.model.bodies[body].mesh.clone())
     }
@@ -219,7 +219,7 @@ impl Model {
         Friction(self.model.pairs[pair].friction.clone())
     }
 
-    /// Whether functions of Python are called during a run.
+    /// Returns whether Python functions are called during a run.
     #[getter]
     fn calls_python(&self) -> bool {
         !self.raised.is_empty()

@@ -1,8 +1,8 @@
 //! Bulk laws that are functions of Python.
 //!
-//! The interpreter's lock is taken for each call and no longer. The first exception of a
-//! function is kept; from then on the law has no answer, so that a run ends there whatever the
-//! order of its threads, and the exception is raised when it has ended.
+//! The interpreter's lock is taken for each call and no longer. The first exception of a function
+//! is kept; from then on the law has no response, so that a run ends there whatever the order of
+//! its threads, and the exception is raised when it has ended.
 
 use std::fmt;
 
@@ -23,11 +23,11 @@ struct Function {
 
 impl fmt::Debug for Function {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "function of Python `{}`", self.name)
+        write!(f, "Python function `{}`", self.name)
     }
 }
 
-/// What the function returns: nothing where it allows no such deformation.
+/// Return value of the function: `None` if it does not allow such a deformation.
 type Answer<'py> = Option<(
     f64,
     PyReadonlyArrayDyn<'py, f64>,
@@ -93,7 +93,7 @@ pub fn own_material(name: String, function: Py<PyAny>) -> PyResult<Material> {
     };
     let wrong = |text: String| model_error(vec![(name.clone(), text)]);
     let Some(rest) = law.called(&Matrix3::identity())? else {
-        return Err(wrong("it has no answer to the undeformed state".into()));
+        return Err(wrong("it fails for the undeformed state".into()));
     };
     // A_1122 and A_1212.
     let [lambda, shear] = [rest.tangent[(0, 4)], rest.tangent[(1, 1)]];

@@ -1,4 +1,4 @@
-//! What functions of Python raise while a run calls them.
+//! Exceptions raised by Python functions that a run calls.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 pub struct Raised(Arc<Mutex<Option<PyErr>>>);
 
 impl Raised {
-    /// Whether there has been an exception.
+    /// Returns whether an exception has been raised.
     pub fn is_set(&self) -> bool {
         self.lock().is_some()
     }

@@ -20,7 +20,7 @@ use crate::{
 /// A converged state that is kept.
 #[derive(Debug)]
 pub struct Kept {
-    /// Where the run was.
+    /// Position of the run.
     pub progress: Progress,
     /// Iterations of Newton's method.
     pub iterations: usize,

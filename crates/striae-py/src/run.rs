@@ -1,5 +1,5 @@
-//! Runs: the library computes on a thread of its own without the interpreter, while the
-//! thread that asked for the run answers to increments and to the keyboard.
+//! Runs: the library computes on a thread of its own without the interpreter, while the thread that
+//! started the run responds to increments and to the keyboard.
 //!
 //! ```text
 //! caller's thread                      thread of the run
@@ -9,25 +9,23 @@
 //! ```
 
 pub mod files;
+mod messenger;
 pub mod returned;
 
 use std::{
     num::NonZeroUsize,
     path::PathBuf,
-    sync::{
-        Arc,
-        mpsc::{Receiver, Sender, channel},
-    },
+    sync::{Arc, mpsc::channel},
     thread,
 };
 
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::{exceptions::PyRuntimeError, prelude::*};
 use striae::{
-    Converged, Error, Finished, Interrupt, Next, Observer, Simulation, case_name,
+    Error, Finished, Interrupt, Simulation, case_name,
     output::{FieldOutput, Output, checkpoint::Checkpoint, history::Table},
     sensitivity::between,
-    solve::{drive::Progress, outcome::Ending},
+    solve::outcome::Ending,
 };
 
 use crate::{
@@ -40,6 +38,7 @@ use crate::{
     start,
     step::Step,
 };
+use messenger::Messenger;
 
 /// Stack of the thread of a run, as large as that of a program's first thread.
 const STACK: usize = 8 << 20;
@@ -55,7 +54,7 @@ pub struct Run {
     told: Told,
 }
 
-/// How a run ended, in words.
+/// Ending of a run, in words.
 pub struct Told {
     /// `completed`, `interrupted` or `stopped`.
     pub ending: String,
@@ -129,22 +128,18 @@ impl Run {
     /// The run at its end with a parameter below and above its value.
     fn neighbours(&self, parameter: usize) -> Vec<Results> {
         let neighbours = self.finished.sensitivities[parameter].neighbours();
-        let last = self.kept.last();
-        let problems = neighbours.parameter.problems.iter();
-        let found = problems
-            .zip(&neighbours.states)
-            .filter_map(|(problem, state)| {
-                let last = last?;
-                Some(Results {
-                    problem: problem.clone(),
-                    kept: Arc::new(Kept {
-                        progress: last.progress,
-                        iterations: last.iterations,
-                        state: state.clone(),
-                    }),
-                })
-            });
-        found.collect()
+        let Some(last) = self.kept.last() else {
+            return Vec::new();
+        };
+        let at_end = |at: usize| Results {
+            problem: neighbours.parameter.problems[at].clone(),
+            kept: Arc::new(Kept {
+                progress: last.progress,
+                iterations: last.iterations,
+                state: neighbours.states[at].clone(),
+            }),
+        };
+        vec![at_end(0), at_end(1)]
     }
 
     /// The model that was run.
@@ -209,13 +204,13 @@ fn table<'py>(py: Python<'py>, table: &Table) -> PyResult<(Vec<String>, Array2<'
     Ok((table.columns.clone(), array))
 }
 
-/// What is told and kept of a run: the function that is called with the results of each
-/// increment, and stops the run by `False`; increments between states that are kept (0: the
-/// ends of steps); the number of threads, that of the machine if `None`.
+/// Observation of a run: the function that is called with the results of each increment and can
+/// stop the run by returning `False`; increments between kept states (0: the ends of steps); the
+/// number of threads, that of the machine if `None`.
 type Watching = (Option<Py<PyAny>>, usize, Option<usize>);
 
-/// Where a run is written: the folder, the name of the case, increments between fields
-/// (0: the last only).
+/// Recording of a run: the folder, the name of the case, increments between fields (0: the last
+/// only).
 type Recording = (PathBuf, Option<String>, Option<usize>);
 
 /// A parameter by which a run is differentiated: its name, its step, the models below and above.
@@ -231,16 +226,11 @@ pub fn run(
     parameters: Vec<Differentiated<'_>>,
 ) -> PyResult<Ended> {
     let (of, output) = (model.model.clone(), model.output.clone());
-    let by: Vec<_> = parameters
-        .iter()
-        .map(|(name, step, less, more)| {
-            (
-                name.clone(),
-                *step,
-                [&less.model, &more.model].map(Arc::clone),
-            )
-        })
-        .collect();
+    let parameters = parameters.into_iter().map(|(name, step, less, more)| {
+        let models = [&less.model, &more.model].map(Arc::clone);
+        (name, step, models)
+    });
+    let by: Vec<_> = parameters.collect();
     let simulation = py.detach(|| {
         let simulation = Simulation::new((*of).clone())?;
         by.into_iter()
@@ -293,53 +283,13 @@ fn recorded(
     }
 }
 
-/// What is written, with so many increments between fields if they are stated.
+/// Output settings, with so many increments between fields if they are stated.
 fn writing(output: Output, fields_every: Option<usize>) -> Output {
     let Some(every) = fields_every else {
         return output;
     };
     let fields = NonZeroUsize::new(every).map_or(FieldOutput::Last, FieldOutput::Every);
     Output { fields, ..output }
-}
-
-/// Keeps states and tells of them.
-struct Messenger {
-    told: Option<(Sender<Arc<Kept>>, Receiver<Next>)>,
-    keep: usize,
-    kept: Vec<Arc<Kept>>,
-    /// The last increment and its iterations.
-    latest: Option<(Progress, usize)>,
-}
-
-impl Observer for Messenger {
-    fn increment(&mut self, converged: &Converged<'_>) -> Next {
-        let progress = converged.progress;
-        let iterations = converged.increment.iterations.len();
-        self.latest = Some((progress, iterations));
-        let is_kept = match self.keep {
-            0 => progress.fraction == 1.0,
-            every => progress.increment.is_multiple_of(every),
-        };
-        if !is_kept && self.told.is_none() {
-            return Next::Continue;
-        }
-        let kept = Arc::new(Kept {
-            progress,
-            iterations,
-            state: converged.increment.state.clone(),
-        });
-        if is_kept {
-            self.kept.push(kept.clone());
-        }
-        let Some((told, answers)) = &self.told else {
-            return Next::Continue;
-        };
-        // Whoever asked for the run has gone if there is no answer.
-        match told.send(kept) {
-            Ok(()) => answers.recv().unwrap_or(Next::Stop),
-            Err(_) => Next::Stop,
-        }
-    }
 }
 
 /// Runs while the caller's thread listens.

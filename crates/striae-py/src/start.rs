@@ -1,7 +1,8 @@
-//! Where functions of displacement begin: where the nodes are.
+//! Start values of functions of displacement.
 //!
-//! A condition takes nodes from where they are to its target. A function states displacements
-//! themselves, so it has to begin at the displacement that the steps before have led to.
+//! Conditions move nodes from their present displacement to the target. A function states
+//! displacements themselves, so it has to begin at the displacement that the steps before have led
+//! to.
 
 use std::collections::BTreeMap;
 
@@ -22,7 +23,7 @@ const ROUND_OFF: f64 = 1e-9;
 /// Prescribed displacements by body, node and component; `None` where they are not known.
 type Known = BTreeMap<(usize, usize, usize), Option<f64>>;
 
-/// Whether the functions of the last steps of a model begin where the nodes are.
+/// Checks that the functions of the last steps of a model start at the positions of the nodes.
 pub fn checked(model: &Model, steps: &[PyRef<'_, Step>]) -> PyResult<()> {
     if steps.iter().all(|step| step.1.is_empty()) {
         return Ok(());
@@ -44,7 +45,7 @@ pub fn checked(model: &Model, steps: &[PyRef<'_, Step>]) -> PyResult<()> {
     }
 }
 
-/// What is wrong with the start of a function, if there is something.
+/// Fault of the start of a function, if any.
 fn wrong(model: &Model, start: &Start, step: usize, known: &Known) -> Option<String> {
     let mut bodies = model.bodies.iter().enumerate();
     let (body, found) = bodies.find(|(_, body)| body.name == start.body)?;
@@ -60,15 +61,14 @@ fn wrong(model: &Model, start: &Start, step: usize, known: &Known) -> Option<Str
         };
         let Some(at) = at else {
             return Some(format!(
-                "a function leads {place}, but node {} is free before, so where it begins is not \
-                 known; state a target and a curve",
+                "a function leads {place}, but node {} was free before, so its starting value is unknown; state a target and a curve",
                 node.index()
             ));
         };
         let size = at.abs() + start.value.abs() + start.change.abs();
         if (at - start.value).abs() > ROUND_OFF * size {
             return Some(format!(
-                "the function of {place} begins at {}, but node {} is at {at} then",
+                "the function of {place} begins at {}, but node {} is at {at} at that time",
                 start.value,
                 node.index()
             ));

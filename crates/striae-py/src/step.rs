@@ -9,7 +9,7 @@ use striae::solve::actuation::strain_in_axes;
 
 use crate::friction::Friction;
 
-/// Where a function begins.
+/// Start value of a function.
 #[derive(Clone)]
 pub struct Start {
     /// Name of the body.
@@ -49,9 +49,9 @@ impl Along {
 /// A step.
 #[pyclass(module = "striae._striae")]
 pub struct Step(
-    /// What it states.
+    /// Builder of the step.
     pub StepBuilder,
-    /// Where functions of displacement begin.
+    /// Start values of functions of displacement.
     pub Vec<Start>,
 );
 
@@ -170,7 +170,7 @@ impl Step {
         along: Along,
     ) -> PyResult<()> {
         let strain = strain_in_axes(components, axes.map(Into::into));
-        let strain = strain.ok_or_else(|| PyValueError::new_err("the axes span no plane"))?;
+        let strain = strain.ok_or_else(|| PyValueError::new_err("the axes do not span a plane"))?;
         self.actuate(body, section, ActuationKind::Strain(strain), along)
     }
 

@@ -56,7 +56,7 @@ def test_what_is_wrong_is_told() -> None:
         with pytest.raises(st.ModelError):
             one()
     for condition, told in (
-        (body.stretch(-1.0), "nothing would be left"),
+        (body.stretch(-1.0), "and vanish"),
         (body.pull(1.0, along="fibres"), "no fibres"),
         (body.stretch(0.1, section="left"), "left"),
     ):

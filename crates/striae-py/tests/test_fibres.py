@@ -54,11 +54,11 @@ def test_fibres_that_cannot_be_are_refused() -> None:
     ground = st.NeoHookean(1.0, 0.3)
     with pytest.raises(st.ModelError, match="dispersion.*from 0 to 1/3"):
         st.Fibrous(ground, [st.ExponentialFibres(1.0, 1.0, (1, 0, 0), dispersion=0.5)])
-    with pytest.raises(st.ModelError, match="only lines along or around an axis can be turned"):
+    with pytest.raises(st.ModelError, match="only lines along or around an axis can be rotated"):
         st.Fibrous(ground, [st.LinearFibres(1.0, st.Uniform((1, 0, 0), turn=30))])
     with pytest.raises(st.ModelError, match="at least one"):
         st.Fibrous(ground, [])
-    with pytest.raises(st.ModelError, match="not one that is linear elastic"):
+    with pytest.raises(st.ModelError, match="not a solid that is linear elastic"):
         st.Fibrous(st.LinearElastic(1.0, 0.3), [st.LinearFibres(1.0, (1, 0, 0))])  # type: ignore[arg-type]
     with pytest.raises(st.ModelError, match="Uniform, Circumferential"):
         st.LinearFibres(1.0, st.Nodal(np.ones((3, 3))))

@@ -109,7 +109,7 @@ def test_materials_can_be_read_in_notebooks() -> None:
 WRONG: list[tuple[Callable[[], Any], str]] = [
     (
         lambda: st.Yeoh(1e5, 0, 0, bulk_modulus=1e7, relaxation=[(0.5, 0.0)]),
-        "relaxation: `time` of branch 0 is 0, it must be positive and finite",
+        "relaxation: `time` of branch 0 is 0, but it must be positive and finite",
     ),
     (
         lambda: st.Yeoh(1e5, 0, 0, bulk_modulus=1e7, relaxation=[0.5]),  # type: ignore[list-item]
@@ -125,11 +125,11 @@ WRONG: list[tuple[Callable[[], Any], str]] = [
     ),
     (
         lambda: st.ElasticPlastic(2e11, 0.3, -1.0),
-        "ElasticPlastic: `yield_stress` is -1, it must be positive and finite",
+        "ElasticPlastic: `yield_stress` is -1, but it must be positive and finite",
     ),
     (
         lambda: st.ElasticPlastic(2e11, 0.3, 2e8, saturation=(1e8, 1.0)),
-        "ElasticPlastic: the stress of saturation is 100000000, it must be at least"
+        "ElasticPlastic: the saturation stress is 100000000, but it must be at least"
         " `yield_stress`, 200000000",
     ),
     (

@@ -78,7 +78,7 @@ def test_numbers_have_units(name: str, thing: object) -> None:
         return
     text = inspect.getdoc(function) or ""
     names = [one for one in inspect.signature(function).parameters if one not in ("self", "cls")]
-    internal = inspect.getdoc(function) and "got from" in text or "made by" in text
+    internal = text.startswith("Use ") or "made by" in text
     for parameter in names if not internal else []:
         assert re.search(rf"\b{parameter}\b", text), f"{name} does not explain {parameter}"
     returned = str(function.__annotations__.get("return"))

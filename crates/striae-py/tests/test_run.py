@@ -226,7 +226,7 @@ def test_a_recorded_run_of_a_deck_is_resumed_to_the_same_history(tmp_path: Path)
     )
     assert len(seen) == len(whole) - 7 and seen[-1] == "slide"
     assert np.array_equal(rest.history.table, whole.history.table)
-    with pytest.raises(RuntimeError, match="completed run, which has nothing left to do"):
+    with pytest.raises(RuntimeError, match="completed run; to continue it"):
         st.resume(tmp_path / "whole")
 
 

@@ -42,7 +42,7 @@ def floored(law: st.Friction | None, texture: Any = None) -> st.Model:
 
 SETS = "`all`, `xmax`, `xmin`, `ymax`, `ymin`, `zmax`, `zmin`"
 
-#: What is done, and the words.
+#: Wrong uses, and their messages.
 MODEL_ERRORS: list[tuple[Callable[[], Any], str]] = [
     (
         lambda: st.Mesh(POINTS[:, :2], {"hexahedron": CELLS}),
@@ -107,7 +107,7 @@ MODEL_ERRORS: list[tuple[Callable[[], Any], str]] = [
     ),
     (
         lambda: st.Mesh(POINTS, {"hexahedron": CELLS}, facet_sets={"top": [[0, 1, 2, 4]]}),
-        "facet set `top`: row 0, [0, 1, 2, 4], is no face of the boundary",
+        "facet set `top`: row 0, [0, 1, 2, 4], is not a face of the boundary",
     ),
     (
         lambda: st.Mesh(np.zeros((0, 3)), {"hexahedron": np.zeros((0, 8), dtype=int)}),
@@ -138,11 +138,11 @@ MODEL_ERRORS: list[tuple[Callable[[], Any], str]] = [
     ),
     (
         lambda: st.NeoHookean(-1.0, 0.3),
-        "NeoHookean: Young's modulus is -1, it must be positive and finite",
+        "NeoHookean: Young's modulus is -1, but it must be positive and finite",
     ),
     (
         lambda: st.NeoHookean(1.0, 0.5),
-        "NeoHookean: Poisson's ratio is 0.5, it must be above -1 and below 0.5",
+        "NeoHookean: Poisson's ratio is 0.5, but it must be above -1 and below 0.5",
     ),
     (lambda: st.Coulomb(float("nan")), "mu: a finite number is needed, not nan"),
     (lambda: st.Coulomb(-0.1), "Coulomb: mu = -0.1 is refused: it must be zero or positive, and finite"),
@@ -207,7 +207,7 @@ MODEL_ERRORS: list[tuple[Callable[[], Any], str]] = [
     ),
     (
         lambda: pad()["zmax"].displace(x=lambda s: s, curve="smooth"),
-        "curve: components that are functions have no curve besides",
+        "curve: components given as functions take no curve",
     ),
     (
         lambda: pad()["zmax"].displace(x=lambda s: 1.0 / (s - 1.0) if s < 1.0 else np.nan),

@@ -95,7 +95,7 @@ const SIX_NODE_TRIANGLE: &[Places] = &[(&[0, 3, 1, 4, 2, 5], None)];
 const EIGHT_NODE_QUADRILATERAL: &[Places] = &[(&[0, 4, 1, 5, 2, 6, 3, 7], None)];
 const NINE_NODE_QUADRILATERAL: &[Places] = &[(&[0, 4, 1, 5, 2, 6, 3, 7], Some(8))];
 
-/// Whether a cell is a part of a surface rather than of a volume.
+/// Returns whether a cell is a part of a surface rather than of a volume.
 pub fn is_flat(shape: u8) -> bool {
     matches!(shape, 5 | 7 | 9 | 22 | 23 | 28)
 }
@@ -178,7 +178,7 @@ impl Face {
         (0..count).map(move |at| [self.outline[at], self.outline[(at + 1) % count]])
     }
 
-    /// What tells faces of neighbours are the same: their corners in order of number.
+    /// Key by which neighbouring cells recognise a common face: its corners in order of number.
     pub fn key(&self) -> Vec<usize> {
         let mut corners: Vec<usize> = self.outline.iter().step_by(self.stride).copied().collect();
         corners.sort_unstable();

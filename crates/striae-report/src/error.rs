@@ -1,4 +1,4 @@
-//! Why there is no report.
+//! Errors of reports.
 
 use std::path::PathBuf;
 
@@ -6,7 +6,7 @@ use striae_figure::FigureError;
 use striae_files::FileError;
 use striae_output::OutputError;
 
-/// What can go wrong.
+/// Error of a report.
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
     /// The folder holds no results.
@@ -19,19 +19,19 @@ pub enum ReportError {
     #[error(transparent)]
     File(#[from] FileError),
     /// There is no field of this name at the time.
-    #[error("there is no field `{name}`; there are {known}")]
+    #[error("unknown field `{name}`; known fields are {known}")]
     Field {
-        /// What was asked for.
+        /// Requested name.
         name: String,
         /// All names.
         known: String,
     },
     /// A field has no component of this name.
-    #[error("`{field}` has no component `{name}`; it has {known}")]
+    #[error("`{field}` has no component `{name}`; its components are {known}")]
     Component {
         /// The field.
         field: String,
-        /// What was asked for.
+        /// Requested name.
         name: String,
         /// All names.
         known: String,

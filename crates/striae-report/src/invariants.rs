@@ -1,4 +1,4 @@
-//! What can be shown of a vector or a tensor as one number, and its extremes.
+//! Scalars derived from a vector or a tensor for display, and their extremes.
 //!
 //! Principal values `s_1 >= s_2 >= s_3` of a symmetric tensor come from the trigonometric
 //! solution of its characteristic equation: with `m = tr S/3`, `D = S - m I`,

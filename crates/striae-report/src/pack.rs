@@ -10,7 +10,7 @@ use std::io::Write;
 
 use flate2::{Compression, write::ZlibEncoder};
 
-/// How codes are predicted.
+/// Prediction of codes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Prediction {
     Space,
@@ -71,7 +71,7 @@ fn cost(prediction: Prediction, row: &[u16], before: Option<&[u16]>) -> u64 {
     bits.map(u64::from).sum()
 }
 
-/// What the prediction of a code leaves, folded.
+/// Residual of the prediction of a code, folded to a nonnegative number.
 fn difference(prediction: Prediction, row: &[u16], before: Option<&[u16]>, at: usize) -> u16 {
     let earlier = |at: usize| before.map_or(0, |before| before[at]);
     let left = |of: &dyn Fn(usize) -> u16| if at > 0 { of(at - 1) } else { 0 };

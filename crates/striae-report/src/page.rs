@@ -31,7 +31,7 @@ const VIEWER: [&str; 7] = [
     include_str!("../assets/viewer/tables.js"),
 ];
 
-/// What the viewer is told.
+/// Header that the viewer reads.
 #[derive(Serialize)]
 struct Head<'a> {
     title: &'a str,

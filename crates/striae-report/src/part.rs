@@ -20,17 +20,17 @@ use crate::{
     results::{Kind, Results},
 };
 
-/// Arrays that say what others say, or what few ask for.
+/// Arrays that repeat others, or that few need.
 const LEFT_OUT: [&str; 3] = ["structural_vector", "mean_traction", "normal"];
 
-/// How far points have gone, in files without `displacement`.
+/// Field of the displacements of points, for files without `displacement`.
 const MOTION: &str = "motion";
 
 /// A surface over time.
 pub struct Part {
     /// Its name.
     pub name: String,
-    /// What it is.
+    /// Kind of the part.
     pub kind: Kind,
     /// Its file at every time, where there is one.
     files: Vec<Option<PathBuf>>,

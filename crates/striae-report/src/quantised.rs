@@ -44,7 +44,7 @@ impl Quantised {
         }
     }
 
-    /// The number of a code; NaN where there is none.
+    /// The number of a code; NaN if there is none.
     pub fn number(&self, code: u16) -> f64 {
         match code {
             NOTHING => f64::NAN,

@@ -1,4 +1,4 @@
-//! What a results folder holds, but for the fields.
+//! Content of a results folder except for the fields.
 
 use std::path::{Path, PathBuf};
 
@@ -11,11 +11,11 @@ use striae_output::{
 
 use crate::ReportError;
 
-/// A results folder. A run under way has no summary, and may have no history yet.
+/// A results folder. A run in progress has no summary, and may have no history yet.
 pub struct Results {
     /// The folder.
     pub folder: PathBuf,
-    /// How the run ended.
+    /// Summary of the run.
     pub summary: Option<Summary>,
     /// A row an increment.
     pub history: Table,
@@ -27,7 +27,7 @@ pub struct Results {
     pub series: Vec<(Kind, Vec<Snapshot>)>,
 }
 
-/// What a collection is of.
+/// Subject of a collection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {

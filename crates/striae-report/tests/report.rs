@@ -248,7 +248,7 @@ fn pictures_show_a_field_at_a_time_from_a_side() {
     .to_string();
     assert_eq!(
         unknown,
-        "there is no field `heat`; there are cauchy_stress, displacement, motion, pressure"
+        "unknown field `heat`; known fields are cauchy_stress, displacement, motion, pressure"
     );
     assert!(
         wrong(component("ww"))

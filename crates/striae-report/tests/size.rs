@@ -13,7 +13,7 @@ use striae_report::LIMIT;
 /// Increments of the results.
 const INCREMENTS: usize = 100;
 
-/// How a point moves: waves that travel, bending, and a little of what is in no other point.
+/// Motion of a point: travelling waves, bending, and a small part that is unique to the point.
 fn moved(x: &Vec3, node: usize, time: f64) -> Vec3 {
     let noise = |seed: f64| (f64::from(node as u32) * 12.9898 + seed + 7.0 * time).sin() * 1e-4;
     let wave = (7.0 * x.x + 3.0 * x.y - 5.0 * time).sin();
@@ -141,7 +141,7 @@ fn a_hundred_increments_of_fifty_thousand_nodes_stay_small() {
     assert!(taken < Duration::from_secs(10), "{taken:?}");
 }
 
-/// Where all nodes are on the surface, some times are left out.
+/// All nodes are on the surface, so some times are left out.
 #[test]
 #[ignore = "takes a minute, most of it to make the results"]
 fn plates_of_fifty_thousand_nodes_stay_small() {

@@ -148,7 +148,7 @@ impl ActuationKind {
         }
     }
 
-    /// Returns whether a later statement of another one goes on from where this one is.
+    /// Returns whether a later statement of the other one continues from this one.
     pub fn is_like(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::Tension { along, .. }, Self::Tension { along: other, .. }) => along == other,

@@ -16,6 +16,7 @@ mod stabilisation;
 mod start;
 mod terms;
 mod ties;
+mod trial;
 
 pub use crate::dynamics::ImposedRate;
 pub use context::{Imposed, StepContext};
@@ -41,6 +42,7 @@ use striae_sparse::{PlacedBlock, SparseMatrix};
 use striae_surface::node::SurfaceNode;
 use terms::Triple;
 use ties::{Moving, Tie};
+pub use trial::Trial;
 
 use crate::{
     layout::Layout,
@@ -52,50 +54,25 @@ use crate::{
     state::{NodalForces, State},
 };
 
-/// A state that is not converged.
-#[derive(Clone, Debug)]
-pub struct Trial {
-    /// Position of every global node.
-    pub positions: Vec<Vec3>,
-    /// Traction unknowns of every pair.
-    pub tractions: Vec<Tractions>,
-    /// Poses of the rigid bodies.
-    pub rigid: Vec<Pose>,
-}
-
-impl Trial {
-    /// Puts nodes that are tied to rigid bodies, and those that follow others in ties, in place.
-    pub(crate) fn place_tied(&mut self, problem: &Problem) {
-        for (rigid, nodes) in problem.tied.iter().enumerate() {
-            let reference = &problem.model.rigid_surfaces[rigid].reference;
-            let placement = self.rigid[rigid].placement(reference);
-            for &node in nodes {
-                self.positions[node] = placement.point(&problem.reference[node]);
-            }
-        }
-        problem.ties.follow(&mut self.positions);
-    }
-}
-
-/// What does not change while an increment is iterated.
+/// Data that stay constant during the iterations of an increment.
 #[derive(Clone, Copy, Debug)]
 pub struct Setting<'a> {
-    /// What does not change within the step.
+    /// Data that stay constant within the step.
     pub context: &'a StepContext<'a>,
     /// The last converged state.
     pub state: &'a State,
     /// Roles of every pair.
     pub selections: &'a [Selection],
-    /// What is imposed at the end of the increment.
+    /// Values imposed at the end of the increment.
     pub imposed: &'a Imposed,
 }
 
-/// Where contact at a trial state comes from.
+/// Source of contact at a trial state.
 #[derive(Debug)]
 pub enum Contact {
-    /// It is evaluated.
+    /// Contact is evaluated.
     Evaluated(Iteration),
-    /// It has been evaluated at this very state.
+    /// Contact has been evaluated at exactly this state.
     Known(Vec<Evaluation>),
 }
 
@@ -109,11 +86,11 @@ pub struct Assembled {
     pub norms: Norms,
     /// Nodal forces.
     pub forces: NodalForces,
-    /// What bodies store, lose and come to.
+    /// Energies, losses and internal variables of the bodies.
     pub bodies: OfBodies,
     /// Contact of every pair.
     pub contacts: Vec<Evaluation>,
-    /// Whether the matrix is of this state.
+    /// Derivatives requested; with them, the matrix is that of this state.
     pub derivatives: Derivatives,
     /// All but contact.
     pub background: Background,
@@ -124,10 +101,10 @@ pub struct Assembled {
 }
 
 /// Evaluates the problem at a trial state and fills the tangent; without derivatives the tangent
-/// stays as it is. The partition grows where contact couples what it has not coupled before.
+/// stays unchanged. The partition grows if contact has new couplings.
 ///
 /// # Errors
-/// Why the trial state cannot be evaluated.
+/// Returns why the trial state cannot be evaluated.
 pub fn assemble(
     setting: &Setting,
     trial: &Trial,
@@ -219,7 +196,7 @@ fn in_phases(
     })
 }
 
-/// Where the two sides of every pair are.
+/// Configurations of all pairs.
 fn configurations<'a>(setting: &Setting<'a>, trial: &'a Trial) -> Vec<Configuration<'a>> {
     let pairs = 0..setting.context.pairs.len();
     pairs
@@ -236,11 +213,11 @@ struct System<'a> {
     layout: &'a Layout,
     /// The part of the bodies in the tangent.
     matrix: &'a mut SparseMatrix,
-    /// Whether the tangent is filled in.
+    /// Derivatives requested; with them, the tangent is filled in.
     derivatives: Derivatives,
-    /// Whether the bodies are linearised elsewhere, so that their part stays as it is.
+    /// `true` if the bodies are linearised elsewhere, so that their part remains unchanged.
     is_linearised: bool,
-    /// What contact couples but for the terms that are blocks as they are.
+    /// Couplings of contact, except for terms that already are blocks.
     blocks: Vec<PlacedBlock<'static>>,
     residual: Vec<f64>,
     forces: NodalForces,
@@ -296,7 +273,7 @@ impl<'a> System<'a> {
     }
 }
 
-/// What something returns, and how long it took.
+/// Result of some work, and the time it took.
 fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
     let started = Instant::now();
     let result = work();
@@ -321,7 +298,8 @@ impl System<'_> {
         Ok(bodies)
     }
 
-    /// All of the bodies but elements and loads: what every rank that holds a node knows of it.
+    /// Contributions of the bodies other than elements and loads, which every rank that holds a
+    /// node knows.
     fn beside_elements(&mut self, imposed: &Imposed) {
         self.point_masses();
         self.carried(imposed);
@@ -385,7 +363,7 @@ impl System<'_> {
         }
     }
 
-    /// Whether this rank adds to the tangent what all ranks know of a row.
+    /// Returns whether this rank adds a row known to all ranks to the tangent.
     fn owns(&self, unknown: usize) -> bool {
         let problem = self.context.problem;
         problem.share.is_alone()

@@ -1,7 +1,7 @@
-//! Converged increments looked at from outside, at nodes.
+//! Audits of converged increments, at nodes.
 //!
-//! Residuals say how well the rows are satisfied, not what they come to. What is looked at here
-//! follows from positions and nodal forces at both ends of an increment, whatever rows it was
+//! Residuals show how well the rows are satisfied, not whether the result is plausible. The audits
+//! use positions and nodal forces at both ends of an increment, independent of the rows it was
 //! solved by.
 
 mod coarse;
@@ -21,20 +21,20 @@ pub use motion::jump;
 pub struct Jump {
     /// The body.
     pub body: usize,
-    /// How far it moves.
+    /// Distance that it moves.
     pub way: f64,
     /// The longest way that is prescribed.
     pub driven: f64,
 }
 
-/// What an increment is doubted for.
+/// Reason to doubt an increment.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Doubt {
     /// Friction pushes a node along its slip.
     Gain(Gain),
 }
 
-/// What an increment from `before` to `after` is doubted for.
+/// Reasons to doubt an increment from `before` to `after`.
 pub fn doubts(problem: &Problem, before: &State, after: &State) -> Vec<Doubt> {
     let pairs = 0..problem.pairs.len();
     let gains = pairs.filter_map(|pair| friction::gain(problem, pair, [before, after]));

@@ -15,10 +15,9 @@ use crate::{
     state::State,
 };
 
-/// The state a step starts from: velocities as it states them, and the
-/// accelerations that `M a = f_ext - f_int + f_con` asks for; at rest where the
-/// step has no inertia. Work of what changes velocities at once is external, and actuation that
-/// changes at once does work at the positions there are.
+/// The state a step starts from: velocities as it states them, and the accelerations from `M a =
+/// f_ext - f_int + f_con`; at rest if the step has no inertia. Work of sudden changes of velocity
+/// is external, and actuation that changes suddenly does work at the present positions.
 ///
 /// # Errors
 /// When the mass is singular, as for a body without density.

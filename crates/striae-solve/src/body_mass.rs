@@ -8,8 +8,7 @@ use crate::{
     model::{Body, Model},
 };
 
-/// Mass matrices of the elements of a body, with the mass of contact nodes moved where that
-/// is asked for.
+/// Mass matrices of the elements of a body, with the mass of contact nodes moved if requested.
 #[derive(Clone, Debug)]
 pub struct BodyMass {
     /// First entry of every element, and the number of all; empty in a body without mass.

@@ -1,9 +1,9 @@
-//! What the elements of a body are made of: the body's own material, or that of a section.
+//! Materials of the elements of a body: the body's own material, or that of a section.
 //!
-//! Sections are counted from 1 in their order; 0 is the body itself, where no section is.
-//! What the quadrature points of a body remember stands in one list, by element and point;
-//! an element has as many variables a point as its material asks for. Fibres have their
-//! directions there.
+//! Sections are counted from 1 in their order; 0 is the body itself, outside of all sections. The
+//! internal variables of the quadrature points of a body are stored in one list, by element and
+//! point; the number of variables per point is that of the element's material. Directions of fibres
+//! are stored there, too.
 
 use std::ops::Range;
 
@@ -24,7 +24,7 @@ pub struct Composition {
     resistances: Vec<Resistance>,
 }
 
-/// What a body is made of, all of its elements together.
+/// Materials of all elements of a body.
 #[derive(Clone, Debug)]
 pub(crate) struct Materials {
     /// Sections that have elements.
@@ -34,7 +34,7 @@ pub(crate) struct Materials {
 }
 
 impl Materials {
-    /// Those of a body.
+    /// Materials of a body.
     pub(crate) fn of(body: &Body) -> Self {
         let used = body.used_sections();
         let shear = used.iter();
@@ -46,7 +46,7 @@ impl Materials {
     }
 }
 
-/// What an element resists motion with.
+/// Stiffness and mass of an element, which resist its motion.
 #[derive(Clone, Copy, Debug)]
 pub struct Resistance {
     /// Mean of the diagonal of its stiffness at rest, `(lambda + 2 G)/n sum_ga w |G_a|^2`.
@@ -56,7 +56,7 @@ pub struct Resistance {
 }
 
 impl Composition {
-    /// That of a body, or what a rank has of it, with its reference elements.
+    /// Composition of a body, or of the part that a rank has, with its reference elements.
     pub(crate) fn new(body: &Body, elements: &Elements, materials: Materials) -> Self {
         let sections = body.section_of_elements();
         let counts = elements.iter().enumerate().map(|(at, element)| {
@@ -89,7 +89,7 @@ impl Composition {
         }
     }
 
-    /// What every element resists motion with.
+    /// Resistance of every element to motion.
     pub fn resistances(&self) -> &[Resistance] {
         &self.resistances
     }
@@ -105,7 +105,7 @@ impl Composition {
         &self.materials.used
     }
 
-    /// How many variables all points remember together.
+    /// Number of internal variables of all points together.
     pub fn variable_count(&self) -> usize {
         self.first_variables.last().copied().unwrap_or(0)
     }
@@ -131,7 +131,7 @@ impl Body {
         self.remembered_in(&self.used_sections())
     }
 
-    /// The same of points in some sections.
+    /// Names of the internal variables of points in some sections.
     pub(crate) fn remembered_in(&self, sections: &[usize]) -> Vec<String> {
         let mut names = Vec::new();
         for &section in sections {
@@ -213,7 +213,7 @@ impl Body {
         }
     }
 
-    /// Whether it has mass.
+    /// Returns whether it has mass.
     pub fn has_mass(&self) -> bool {
         let used = self.used_sections();
         used.iter().any(|section| self.density_of(*section) > 0.0)

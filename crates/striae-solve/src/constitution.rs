@@ -1,4 +1,4 @@
-//! What every element of a problem is made of, and what its points remember.
+//! Materials of the elements of a problem, and internal variables of their points.
 
 use striae_element::{Driven, Element};
 use striae_law::bulk::Material;
@@ -66,8 +66,7 @@ impl Problem {
         elements.map(mean).collect()
     }
 
-    /// Material of an element of a body with its actuation, and the variables that its points
-    /// have come to.
+    /// Material of an element of a body with its actuation, and the variables of its points.
     pub fn made_of<'a>(
         &'a self,
         state: &'a State,

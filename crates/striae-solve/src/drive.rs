@@ -31,32 +31,33 @@ pub trait Observer: IterationObserver {
     fn step(&mut self, index: usize, name: &str);
     /// An increment has converged.
     fn increment(&mut self, progress: Progress, increment: &Increment) -> Continue;
-    /// A point that was asked for by the answer to [`Observer::increment`] or [`Observer::cut_back`],
-    /// or the last one of a step that does not reach its end.
+    /// A point that was requested by the response to [`Observer::increment`] or
+    /// [`Observer::cut_back`], or the last one of a step that does not reach its end.
     fn point(&mut self, _point: Point) {}
     /// An increment has failed and is tried again with a smaller one.
     fn cut_back(&mut self, progress: Progress, reason: &CutBack) -> Continue;
 }
 
-/// Whether a run goes on.
+/// Decision whether a run continues.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Continue {
-    /// It does.
+    /// The run continues.
     Yes,
-    /// It does, and the observer is given the point it has come to.
+    /// The run continues, and the observer receives its present point.
     Keep,
-    /// It ends after this increment, and the observer is given the point.
+    /// The run ends after this increment, and the observer receives its point.
     Stop,
 }
 
 impl Continue {
-    /// What the ranks of a run do together: stop if one does, keep if one does; collective.
+    /// Common decision of all ranks of a run: to stop if one does, to keep if one does; collective.
     fn together(self, share: &Share) -> Self {
         let own = match self {
             Self::Yes => 0.0,
             Self::Keep => 1.0,
             Self::Stop => 2.0,
         };
+        // Ranks that disagreed would wait for each other for ever.
         match share.largest(own) {
             0.0 => Self::Yes,
             1.0 => Self::Keep,
@@ -65,7 +66,7 @@ impl Continue {
     }
 }
 
-/// Where a run is.
+/// Position of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
     /// Number of the step.
@@ -78,8 +79,8 @@ pub struct Progress {
     pub time: f64,
 }
 
-/// How often in a step an increment that is doubted is tried again with a smaller one. Where that
-/// does not help, it is accepted with a warning.
+/// Number of times in a step that a doubted increment is repeated with a smaller one. If that does
+/// not help, it is accepted with a warning.
 const DOUBTS: usize = 4;
 
 /// Iterations up to which an increment counts as easy.
@@ -87,7 +88,7 @@ const EASY: usize = 6;
 const GROWTH: f64 = 1.5;
 const CUT: f64 = 0.5;
 
-/// A place in a run from which it can go on as if it had not stopped.
+/// A place in a run from which it can continue as if it had not stopped.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Point {
     /// Number of the step.
@@ -98,7 +99,7 @@ pub struct Point {
     pub fraction: f64,
     /// Size of the next increment.
     pub size: f64,
-    /// How often increments of the step have been tried again for doubts.
+    /// Number of times that increments of the step have been repeated because of doubts.
     pub doubted: usize,
     /// Distance over which it looks for contact, by pair, at least; empty after an increment
     /// that has converged.
@@ -107,7 +108,7 @@ pub struct Point {
     pub start: State,
     /// Last converged state.
     pub state: State,
-    /// What the linear system has grown to.
+    /// Size of the linear system and experience of its solver.
     pub memory: Memory,
 }
 
@@ -129,8 +130,8 @@ pub fn run_after(
     run_in(workspace, problem, (first, increments), state, observer)
 }
 
-/// The same in a workspace, such as that of one of several ranks; collective there. The pair is
-/// the number of the first step and how many increments those before it took.
+/// Runs all steps in a given workspace, such as that of one of several ranks; collective there. The
+/// pair holds the number of the first step and the number of increments of all earlier steps.
 pub fn run_in(
     mut workspace: Workspace,
     problem: &Problem,
@@ -141,13 +142,13 @@ pub fn run_in(
     run_steps(problem, first, state, increments, &mut workspace, observer)
 }
 
-/// Goes on from a point of an earlier run, with the same results to the last bit.
+/// Continues from a point of an earlier run, with results identical to the last bit.
 pub fn resume(problem: &Problem, point: Point, observer: &mut dyn Observer) -> (State, Ending) {
     let workspace = Workspace::new(problem.model.solver.backend);
     resume_in(workspace, problem, point, observer)
 }
 
-/// The same in a workspace, such as that of one of several ranks; collective there.
+/// Resumes a run in a given workspace, such as that of one of several ranks; collective there.
 pub fn resume_in(
     workspace: Workspace,
     problem: &Problem,
@@ -180,12 +181,12 @@ pub fn resume_in(
     }
 }
 
-/// How far the division of a step into increments has come.
+/// Progress of the division of a step into increments.
 struct Division {
     count: usize,
     done: f64,
     size: f64,
-    /// How often increments have been tried again for doubts.
+    /// Number of times that increments have been repeated because of doubts.
     doubted: usize,
     /// Distance over which the next attempt looks for contact, by pair, at least.
     search: Vec<f64>,
@@ -196,13 +197,15 @@ impl Division {
     fn converged(&mut self, fraction: f64, increment: &Increment, largest: f64) {
         self.count += 1;
         self.done = fraction;
+        // The larger search distance was for the motion of one increment, and costs time.
         self.search.clear();
+        // Corrections of contact alone are not among these iterations.
         if increment.iterations.len() <= EASY {
             self.size = (self.size * GROWTH).min(largest);
         }
     }
 
-    /// The point that a step has come to in `state`.
+    /// The point that a step has reached in `state`.
     fn point(&self, context: &StepContext, state: &State, workspace: &Workspace) -> Point {
         Point {
             step: context.index,
@@ -234,6 +237,7 @@ impl Division {
         }
         increment.doubts = doubts(problem, before, &increment.state);
         let smaller = (fraction - self.done) * CUT;
+        // A doubt is no failure: rather than end the run, the increment is accepted with a warning.
         let may_be_cut = smaller >= problem.model.steps[context.index].increments.smallest;
         match increment.doubts.first() {
             Some(doubt) if may_be_cut && self.doubted < DOUBTS => {
@@ -254,6 +258,7 @@ pub(crate) fn look_farther(problem: &Problem, search: &mut Vec<f64>, reason: &Cu
     search.resize(problem.pairs.len(), 0.0);
     for (known, search) in problem.pairs.iter().zip(search) {
         if known.contact.name == *pair {
+            // The pair missed contact over this distance, so the next attempt has to look that far.
             *search = search.max(*way);
         }
     }
@@ -321,6 +326,7 @@ fn run_step(
                 next
             }
             Err(reason) => {
+                // A body without restraint explains the failure better than a residual does.
                 let reason = free(context, state).unwrap_or(reason);
                 let size = (fraction - division.done) * CUT;
                 let helps = reason.remedy() == Remedy::SmallerIncrement;
@@ -350,7 +356,7 @@ fn run_step(
     None
 }
 
-/// An increment to where a step is to come to.
+/// An increment to the target of a step.
 fn attempted(
     context: &StepContext,
     state: &State,

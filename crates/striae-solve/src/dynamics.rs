@@ -70,7 +70,7 @@ pub struct ImposedRate {
     pub acceleration: f64,
 }
 
-/// What inertia knows of the increment under way.
+/// Inertial quantities of the current increment.
 #[derive(Clone, Debug)]
 pub struct Motion {
     scheme: Scheme,
@@ -83,7 +83,7 @@ pub struct Motion {
     carried: Vec<Vec3>,
     /// `a_f` times the forces that hold tied nodes at the start.
     held: Vec<Vec3>,
-    /// `a_f` times what contact asks for of the rigid bodies at the start.
+    /// `a_f` times the forces of contact on the rigid bodies at the start.
     pushed: Vec<Wrench>,
 }
 
@@ -225,8 +225,7 @@ pub(crate) fn wrenches(
         .collect()
 }
 
-/// What is left of the forces and torques on rigid bodies without those that hold
-/// tied nodes, times `weight`.
+/// Forces and torques on rigid bodies minus those that hold tied nodes, times `weight`.
 fn pushed(problem: &Problem, state: &State, weight: f64) -> Vec<Wrench> {
     let held = wrenches(
         problem,

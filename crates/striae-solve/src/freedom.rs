@@ -6,7 +6,7 @@
 //! two bodies that both move, of the difference of their motions. What is left is the null
 //! space of the rows. Lengths are scaled by the size of the bodies.
 //!
-//! Prescribed nodes are looked at by the ranks that own them, all else by all of them.
+//! Prescribed nodes are processed by the ranks that own them, everything else by all ranks.
 //!
 //! Longer than other files, as rows and the words for their null space belong together.
 
@@ -28,12 +28,12 @@ use crate::{
     state::State,
 };
 
-/// What friction holds.
+/// Contact nodes at which friction holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Friction {
     /// All closed nodes of pairs that have friction.
     Any,
-    /// These, and all closed nodes of stabilised pairs.
+    /// Closed nodes with friction, and all closed nodes of stabilised pairs.
     Dashpots,
     /// Nodes that stick, in pairs of which a noticeable part does.
     Reserve,
@@ -43,10 +43,10 @@ pub enum Friction {
 const STICKING: f64 = 0.2;
 /// Eigenvalue, over the largest one, of a motion that nothing stops.
 const SINGULAR: f64 = 1e-9;
-/// The same for a motion that friction alone stops: normals of deformed surfaces tilt by some
-/// hundredths, which holds no body that friction cannot.
+/// Corresponding limit for a motion that friction alone stops: normals of deformed surfaces tilt by
+/// some hundredths, which holds no body that friction cannot.
 const TILTED: f64 = 1e-3;
-/// What a motion may be short of being free altogether.
+/// Amount by which a motion may fall short of being entirely free.
 const SHORT: f64 = 1e-6;
 
 /// Pairs of which all closed nodes slip, but for a few: at the middle of a turn nothing slips.
@@ -66,14 +66,14 @@ pub fn slipping<'n>(contacts: impl Iterator<Item = &'n [Vec<NodeResult>; 2]>) ->
         .collect()
 }
 
-/// Pairs whose sides are taken for held by each other where they face each other.
+/// Pairs whose sides count as held by each other where they face each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bridged {
     /// None.
     None,
-    /// Those that are stabilised in the step.
+    /// Pairs that are stabilised in the step.
     Stabilised,
-    /// These, as if they touched.
+    /// The pair of this number only, as if it touched.
     Touching(usize),
 }
 
@@ -90,8 +90,8 @@ pub fn worth_stabilising(context: &StepContext, state: &State, free: &FreeMotion
     (0..state.pairs.len()).filter(open).find(held)
 }
 
-/// A motion that nothing holds in a converged state. Nodes of pairs that contact has not
-/// looked at yet are closed if they touch.
+/// A motion that nothing holds in a converged state. Nodes of pairs that contact has not evaluated
+/// yet count as closed if they touch.
 pub fn free_motion_in(
     context: &StepContext,
     state: &State,

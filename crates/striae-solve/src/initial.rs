@@ -1,9 +1,9 @@
 //! Gaps and overlaps of the pairs of a model before anything has moved.
 //!
-//! Overlaps of more than two hundredths of the local facet size are a [`fault`] unless
-//! the pair says what to make of them: [`close`] moves the nodes of the smaller side to
-//! the other one, without strain, as it is the reference mesh that changes; [`Offsets`] let
-//! overlaps fade over the first step.
+//! Overlaps of more than two hundredths of the local facet size are a [`fault`] unless the pair
+//! states their treatment: [`close`] moves the nodes of the smaller side to the other one, without
+//! strain, as it is the reference mesh that changes; [`Offsets`] let overlaps fade over the first
+//! step.
 
 mod close;
 mod crowd;
@@ -56,7 +56,7 @@ pub fn crowded(model: &Model, pair: PairId, fit: &Fit) -> Option<InitialFault> {
     })
 }
 
-/// How all pairs fit; `None` for pairs that are no pairs.
+/// Initial fit of all pairs; `None` for pairs that are not valid.
 pub fn fits(model: &Model) -> Vec<Option<Fit>> {
     let pairs = 0..model.pairs.len();
     pairs
@@ -64,7 +64,7 @@ pub fn fits(model: &Model) -> Vec<Option<Fit>> {
         .collect()
 }
 
-/// What is wrong with a pair that fits like this.
+/// Fault of a pair with this fit.
 pub fn fault(model: &Model, pair: PairId, fit: &Fit) -> Option<InitialFault> {
     let of_pair = &model.pairs[pair.0];
     if fit.lies == Lies::Behind && is_wholly_behind(model, pair) {
@@ -218,7 +218,7 @@ impl Reference {
     }
 }
 
-/// Whether all nodes of the body of side `a` are behind a rigid side.
+/// Returns whether all nodes of the body of side `a` are behind a rigid side.
 fn is_wholly_behind(model: &Model, pair: PairId) -> bool {
     let Some(reference) = Reference::new(model, pair) else {
         return false;

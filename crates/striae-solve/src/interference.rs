@@ -15,7 +15,7 @@ use crate::{
     state::State,
 };
 
-/// Where nodes and rigid bodies are.
+/// Positions of nodes and rigid bodies.
 #[derive(Clone, Copy, Debug)]
 pub struct Positions<'a> {
     /// Positions of all global nodes.
@@ -51,8 +51,8 @@ pub fn between(
     interferences(&start, &end, share)
 }
 
-/// What is deeper inside than it is `meant` to be by more than `share` of the facet size, with
-/// the depth beyond that; what has passed through as it is.
+/// Interferences that are deeper than `meant` by more than `share` of the facet size, with the
+/// excess depth; passages are returned unchanged.
 pub fn beyond(found: Vec<Interference>, meant: f64, share: f64) -> Vec<Interference> {
     let of_one = |found: Interference| {
         if found.kind != Kind::Inside {
@@ -73,12 +73,12 @@ pub fn within(problem: &Problem, pair: usize, at: Positions, share: f64) -> Vec<
     resolved_inside(&stage, share)
 }
 
-/// Where the sides of a pair are.
+/// Configuration of a pair.
 pub fn configuration<'a>(problem: &'a Problem, pair: usize, at: Positions) -> Configuration<'a> {
     placed(problem, pair, &problem.pairs[pair].contact, at)
 }
 
-/// The same of a pair of the problem that looks for contact in another distance.
+/// Configuration of a pair of the problem with another search distance.
 pub(crate) fn placed<'a>(
     problem: &Problem,
     pair: usize,
@@ -104,13 +104,13 @@ pub(crate) fn placed<'a>(
     Configuration::new(contact, Side::BOTH.map(of_side), placement)
 }
 
-/// How thick the bodies behind the facets of a pair are.
+/// Thickness of the bodies behind the facets of a pair.
 pub fn thickness(problem: &Problem, pair: usize, positions: &[Vec3]) -> Thickness {
     let at = |body: usize, node: NodeId| positions[problem.node(body, node)];
     thickness_with(&problem.pairs[pair], at)
 }
 
-/// The same with the nodes of bodies anywhere.
+/// Thickness with the nodes of bodies at given places.
 pub(crate) fn thickness_with(
     geometry: &PairGeometry,
     at: impl Fn(usize, NodeId) -> Vec3,

@@ -1,10 +1,10 @@
 //! Global numbering of the unknowns.
 //!
-//! A node with its three position components and three traction unknowns for
-//! every contact surface it is active on is one supervariable, so that the
-//! factorisation meets gap rows and their multipliers together. The six coordinates of a
-//! rigid body that nodes are tied to or that contact may move are another one, kept for last.
-//! What the unknowns of a share are in the whole system is in `layout/shared.rs`.
+//! The supervariable of a node consists of its three position components and three traction
+//! unknowns for every contact surface it is active on, so that the factorisation treats gap rows
+//! and their multipliers together. The six coordinates of a rigid body that nodes are tied to or
+//! that contact may move form another one, eliminated last. The unknowns of a share in the whole
+//! system are described in `layout/shared.rs`.
 
 mod growth;
 mod shared;
@@ -17,7 +17,7 @@ use striae_surface::node::SurfaceNode;
 use crate::{node::GlobalNode, problem::Problem};
 pub(crate) use growth::united;
 
-/// Which surface nodes have traction unknowns.
+/// Surface nodes with traction unknowns.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Extent {
     /// By pair and side.
@@ -37,7 +37,7 @@ pub struct Layout {
 }
 
 impl Extent {
-    /// This extent and the kept nodes of all pairs together.
+    /// Union of this extent and the kept nodes of all pairs.
     pub fn with(&self, selections: &[Selection]) -> Self {
         let mut grown = self.clone();
         grown.nodes.resize_with(selections.len(), Default::default);
@@ -99,7 +99,7 @@ impl Layout {
         }
     }
 
-    /// What has traction unknowns.
+    /// Nodes with traction unknowns.
     pub fn extent(&self) -> &Extent {
         &self.extent
     }
@@ -165,13 +165,13 @@ impl Layout {
         self.rigids[rigid].map(|supervariable| self.offsets[supervariable])
     }
 
-    /// Whether no rigid body has coordinates that are unknowns.
+    /// Returns whether no rigid body has coordinates that are unknowns.
     pub fn moves_no_body(&self) -> bool {
         self.rigids.iter().all(Option::is_none)
     }
 
-    /// Whether a supervariable is this rank's own: that of a node is with the node, that of a
-    /// rigid body with the first rank.
+    /// Returns whether this rank owns a supervariable: that of a node belongs to the owner of the
+    /// node, that of a rigid body to the first rank.
     pub fn is_own(&self, problem: &Problem, Supervariable(at): Supervariable) -> bool {
         match at < self.nodes {
             true => problem.share.owns(GlobalNode(at)),

@@ -1,4 +1,4 @@
-//! What follows from the mass of all bodies.
+//! Quantities derived from the mass of all bodies.
 
 use striae_mesh::{ElementId, Vec3};
 

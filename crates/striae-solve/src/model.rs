@@ -1,8 +1,8 @@
-//! What is to be simulated: validated, immutable data that a deck is lowered to.
+//! Model of a simulation: validated, immutable data that a deck is lowered to.
 //!
 //! All quantities are in the consistent units of the user.
 //!
-//! Longer than other files, as it is the one list of all that a model can say.
+//! Longer than other files, as it is the one list of everything that a model can contain.
 
 use nalgebra::Matrix3;
 use serde::Serialize;
@@ -41,9 +41,9 @@ pub struct Body {
     pub mesh: Mesh,
     /// Bulk material, where no section is.
     pub material: Material,
-    /// How its elements take up strain.
+    /// Formulation of its elements.
     pub formulation: Formulation,
-    /// Mass per reference volume; zero where neither inertia nor gravity asks for it.
+    /// Mass per reference volume; zero if neither inertia nor gravity needs it.
     pub density: f64,
     /// Mass of the nodes of its contact surfaces.
     pub contact_mass: ContactMass,
@@ -60,7 +60,7 @@ pub struct BodySection {
     pub elements: Vec<ElementId>,
     /// Bulk material.
     pub material: Material,
-    /// How they take up strain.
+    /// Formulation of these elements.
     pub formulation: Formulation,
     /// Mass per reference volume.
     pub density: f64,
@@ -69,7 +69,7 @@ pub struct BodySection {
 /// Mass of the nodes of contact surfaces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum ContactMass {
-    /// What the consistent mass matrix gives them.
+    /// Mass from the consistent mass matrix.
     Consistent,
     /// None: it is moved to the nodes behind, so that contact neither stops nor throws mass.
     Redistributed,
@@ -191,15 +191,15 @@ pub struct Pair {
     pub textures: [Option<Paint>; 2],
     /// Friction from the start; steps may change it.
     pub friction: Friction,
-    /// How contact is enforced.
+    /// Enforcement of contact.
     pub enforcement: Enforcement,
-    /// Distance over which contact is looked for ahead; `None`: half the local facet size.
+    /// Distance within which contact is searched; `None`: half the local facet size.
     pub search_distance: Option<f64>,
-    /// What is made of gaps and overlaps of the meshes.
+    /// Treatment of initial gaps and overlaps of the meshes.
     pub initial: Initial,
     /// By how much the sides interfere, measured from faces that touch.
     pub interference: Option<InterferenceFit>,
-    /// Whether viscous forces carry bodies that nothing else holds across the gap, see
+    /// `true` if viscous forces carry bodies without other restraints across the gap, see
     /// [`crate::stabilisation`].
     pub stabilised: bool,
     /// Dihedral angle in degrees from which on facets that share an edge belong to different
@@ -248,20 +248,20 @@ pub struct Tie {
     /// Distance up to which facets are tied; `None`: a tenth of their size, and facets that
     /// face each other from further away are a fault.
     pub within: Option<f64>,
-    /// How far the furthest node has been moved to where it belongs.
+    /// Largest distance that a node has been moved to its place on the other surface.
     pub moved: f64,
 }
 
 impl Tie {
-    /// Whether a body is a side of it.
+    /// Returns whether a body is a side of it.
     pub fn joins(&self, body: BodyId) -> bool {
         let is = |side: &ContactSurface| matches!(side, ContactSurface::Deformable { body: of, .. } if *of == body);
         is(&self.a) || is(&self.b)
     }
 }
 
-/// What is made of the gaps and overlaps that the meshes of a pair have before anything
-/// has moved, see [`crate::initial`].
+/// Treatment of the gaps and overlaps that the meshes of a pair have before any motion, see
+/// [`crate::initial`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub enum Initial {
     /// Gaps are real, overlaps a fault.
@@ -280,7 +280,7 @@ pub struct InterferenceFit {
     /// Overlap of the undeformed bodies at the end of the first step, kept from there on; negative
     /// for a clearance.
     pub value: f64,
-    /// How it is approached in the first step.
+    /// Curve of the approach in the first step.
     pub curve: Curve,
 }
 
@@ -326,7 +326,7 @@ pub struct Step {
     pub name: String,
     /// Duration in (pseudo) time.
     pub duration: f64,
-    /// Whether there is inertia.
+    /// Procedure: with or without inertia.
     pub procedure: Procedure,
     /// Increment control.
     pub increments: Increments,
@@ -348,7 +348,7 @@ pub struct Step {
     pub frictions: Vec<(PairId, Friction)>,
 }
 
-/// Whether a step has inertia.
+/// Procedure of a step: with or without inertia.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum Procedure {
     /// A sequence of equilibria.
@@ -387,11 +387,11 @@ pub enum Mover {
 pub struct Gravity {
     /// Target.
     pub acceleration: Vec3,
-    /// How the target is approached.
+    /// Curve towards the target.
     pub curve: Curve,
 }
 
-/// How a step is divided into increments, as fractions of its duration.
+/// Division of a step into increments, as fractions of its duration.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Increments {
     /// First increment.
@@ -411,9 +411,9 @@ pub struct Displacement {
     pub body: BodyId,
     /// Its nodes.
     pub nodes: Vec<NodeId>,
-    /// Target by component; `None` leaves the component as it is.
+    /// Target by component; `None` leaves the component unchanged.
     pub components: [Option<f64>; 3],
-    /// How the target is approached.
+    /// Curve towards the target.
     pub curve: Curve,
 }
 
@@ -437,11 +437,11 @@ pub struct Load {
     pub body: BodyId,
     /// Its faces.
     pub faces: Vec<Face>,
-    /// What acts on them.
+    /// Kind of load on the faces.
     pub kind: LoadKind,
-    /// Which part of the faces is loaded.
+    /// Part of the faces that is loaded.
     pub extent: LoadExtent,
-    /// How the target is approached.
+    /// Curve towards the target.
     pub curve: Curve,
 }
 
@@ -456,7 +456,7 @@ pub enum LoadKind {
     Pressure(f64),
 }
 
-/// Strain or tension that a body takes on of itself, see [`crate::actuation`].
+/// Strain or tension imposed on a body, see [`crate::actuation`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Actuation {
     /// The body.
@@ -465,7 +465,7 @@ pub struct Actuation {
     pub section: Option<usize>,
     /// The strain or tension that it takes on.
     pub kind: ActuationKind,
-    /// How the target is approached.
+    /// Curve towards the target.
     pub curve: Curve,
 }
 
@@ -503,7 +503,7 @@ pub enum LoadExtent {
     Exposed,
 }
 
-/// What a rigid body does in a step.
+/// Motion of a rigid body in a step.
 #[derive(Clone, Debug, Serialize)]
 pub struct RigidMotion {
     /// The body.
@@ -514,16 +514,16 @@ pub struct RigidMotion {
     pub force: Option<Vec3>,
     /// Target of the driving torque.
     pub torque: Option<Vec3>,
-    /// How the targets are approached.
+    /// Curve towards the targets.
     pub curve: Curve,
 }
 
-/// What a coordinate of a rigid body does.
+/// Motion of a coordinate of a rigid body.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum Freedom {
-    /// It stays free or where it is.
+    /// The coordinate stays free or at its value.
     AsBefore,
-    /// It goes to a target.
+    /// The coordinate moves to a target.
     To(f64),
     /// Forces decide.
     Free,
@@ -550,7 +550,7 @@ pub enum Curve {
 pub struct Solver {
     /// Factorisation.
     pub backend: Backend,
-    /// How stick and slip are found.
+    /// Determination of stick and slip.
     pub strategy: Strategy,
     /// Relative tolerance of every residual field.
     pub tolerance: f64,
@@ -560,7 +560,7 @@ pub struct Solver {
     pub further_iterations: usize,
 }
 
-/// How stick and slip are found.
+/// Determination of stick and slip.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum Strategy {
     /// As part of the linearisation.

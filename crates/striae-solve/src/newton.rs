@@ -65,38 +65,38 @@ pub struct Increment {
     pub unknowns: usize,
     /// Predicted memory of the factorisation in bytes.
     pub peak_bytes: usize,
-    /// What the linear systems took.
+    /// Work spent on the linear systems.
     pub work: LinearWork,
-    /// What came inside or through in the increment, deeper than
+    /// Interferences that arose in the increment, deeper than
     /// [`SHARE`](striae_contact::interference::SHARE) of the facet size, by pair.
     pub interferences: Vec<Vec<Interference>>,
-    /// What came inside bodies where no pair sees it, by that depth.
+    /// Overlaps of bodies that no pair detects, deeper than that.
     pub overlaps: Vec<BodyOverlap>,
     /// Traction fields of all pairs.
     pub selections: Vec<Selection>,
-    /// Returns whether these were chosen again in the course of the iterations.
+    /// `true` if these were chosen again in the course of the iterations.
     pub has_reselected: bool,
-    /// What it was accepted for.
+    /// Criterion by which the increment was accepted.
     pub acceptance: Acceptance,
-    /// What it is doubted for, as far as it has been looked at from outside.
+    /// Reasons to doubt the increment, as far as it has been audited.
     pub doubts: Vec<Doubt>,
 }
 
-/// Which step an increment is of, and how far it goes.
+/// Step of an increment, and its end within it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct InStep {
     /// Number of the step.
     pub step: usize,
-    /// Where the increment ends.
+    /// End of the increment.
     pub reach: Reach,
 }
 
-/// Where an increment ends.
+/// End of an increment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reach {
     /// Within its step.
     Within,
-    /// Where its step ends.
+    /// End of its step.
     End,
 }
 
@@ -117,7 +117,7 @@ pub trait IterationObserver {
     fn iteration(&mut self, number: usize, norms: &Norms, contacts: &[Evaluation]);
 }
 
-/// Nobody is told.
+/// An observer that ignores everything.
 impl IterationObserver for () {
     fn iteration(&mut self, _: usize, _: &Norms, _: &[Evaluation]) {}
 }
@@ -136,7 +136,7 @@ pub struct Estimate {
 /// Predicts the cost of the first linear system of a problem that is on one rank.
 ///
 /// # Errors
-/// Why the undeformed state cannot be evaluated.
+/// Returns why the undeformed state cannot be evaluated.
 pub fn estimate(problem: &Problem) -> Result<Estimate, CutBack> {
     let state = State::undeformed(problem);
     let context = StepContext::new(problem, 0, &state);
@@ -161,7 +161,7 @@ pub fn estimate(problem: &Problem) -> Result<Estimate, CutBack> {
 /// Forces and energies in `state`, with the loads at the start of the step.
 ///
 /// # Errors
-/// Why the state cannot be evaluated.
+/// Returns why the state cannot be evaluated.
 pub(crate) fn assembled_at_start(
     context: &StepContext,
     state: &State,
@@ -173,7 +173,7 @@ pub(crate) fn assembled_at_start(
 /// Forces and energies in `state`, with the loads at the fraction `s` of the step.
 ///
 /// # Errors
-/// Why the state cannot be evaluated.
+/// Returns why the state cannot be evaluated.
 pub(crate) fn assembled_at(
     context: &StepContext,
     state: &State,
@@ -203,7 +203,7 @@ pub(crate) fn assembled_at(
 /// Advances from `state` to the fraction `s` of the step.
 ///
 /// # Errors
-/// Why the increment has to be cut.
+/// Returns why the increment has to be cut.
 pub fn advance(
     context: &StepContext,
     state: &State,

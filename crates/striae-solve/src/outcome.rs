@@ -1,12 +1,12 @@
-//! How increments and runs can end.
+//! Endings of increments and runs.
 //!
-//! Longer than other files, as it lists every ending with its words.
+//! Longer than other files, as it lists every ending with its message.
 
 use striae_sparse::SolveError;
 
 use crate::norms::Norms;
 
-/// Why an increment did not succeed and is tried again with a smaller one.
+/// Reason why an increment did not succeed and is repeated with a smaller one.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CutBack {
     /// Newton's method ran out of iterations.
@@ -33,12 +33,12 @@ pub enum CutBack {
     },
     /// An element was turned inside out.
     #[error(
-        "body `{body}`, {element}; it is pressed or sheared too far there: move the body by less, load it less, or refine the mesh"
+        "body `{body}`, {element}; the body is compressed or sheared too much there: reduce its displacement or load, or refine the mesh"
     )]
     InvertedElement {
         /// Name of the body.
         body: String,
-        /// Which and how.
+        /// Element, and its fault.
         element: striae_element::ElementFault,
     },
     /// A load has no direction.
@@ -48,12 +48,12 @@ pub enum CutBack {
         body: String,
         /// Facet set.
         set: String,
-        /// What is wrong.
+        /// Error of the load.
         error: crate::load::LoadError,
     },
     /// A convected texture has no direction left at a node.
     #[error(
-        "pair `{pair}`: the texture at {node} of body `{body}`, or opposite to it, has no direction left"
+        "pair `{pair}`: the texture at {node} of body `{body}`, or opposite to it, has no tangential part any more"
     )]
     CollapsedTexture {
         /// Name of the pair.
@@ -75,7 +75,7 @@ pub enum CutBack {
     },
     /// Nodes outside the contact zone ran into the other side.
     #[error(
-        "pair `{pair}`: {} nodes met the other surface unnoticed, first {node} of body `{body}`",
+        "pair `{pair}`: {} nodes reached the other surface undetected, the first is {node} of body `{body}`",
         count
     )]
     MissedContact {
@@ -85,12 +85,12 @@ pub enum CutBack {
         body: String,
         /// The first node.
         node: striae_mesh::NodeId,
-        /// How many.
+        /// Number of such nodes.
         count: usize,
     },
     /// Bodies have gone through each other.
     #[error(
-        "pair `{pair}`: {node} of `{body}` went through `{other}`, or {depth:.3e} into it, and contact did not see it"
+        "pair `{pair}`: {node} of `{body}` passed through `{other}`, or {depth:.3e} into it, undetected by contact"
     )]
     Passage {
         /// Name of the pair.
@@ -99,11 +99,11 @@ pub enum CutBack {
         body: String,
         /// The node, or the nearest one, that is in deepest.
         node: striae_mesh::NodeId,
-        /// What it went through.
+        /// Name of the body or surface that was passed through.
         other: String,
-        /// How deep it was.
+        /// Depth of the point.
         depth: f64,
-        /// How far one side has moved relative to the other.
+        /// Motion of one side relative to the other.
         way: f64,
     },
     /// A body has gone into itself or another one, where no pair lets them touch.
@@ -115,14 +115,14 @@ pub enum CutBack {
         node: striae_mesh::NodeId,
         /// Name of the body that it is inside of.
         other: String,
-        /// How deep it is.
+        /// Depth of the point.
         depth: f64,
-        /// Where it was at the start of the increment.
+        /// Position of the point at the start of the increment.
         start: Start,
     },
     /// Friction pushes a node along its slip.
     #[error(
-        "pair `{pair}`: friction pushes {node} of `{body}` along its slip, which gains {work:.1e}, {:.0} % of what friction works at the nodes around",
+        "pair `{pair}`: friction pushes {node} of `{body}` in the direction of its slip and gains the energy {work:.1e}, {:.0} % of the frictional work at the nodes around it",
         100.0 * share
     )]
     Gain {
@@ -134,17 +134,17 @@ pub enum CutBack {
         node: striae_mesh::NodeId,
         /// Work that it gains in the increment.
         work: f64,
-        /// The same over the magnitudes of the work at all nodes of its side.
+        /// Ratio of this work to the sum of its magnitudes at all nodes of the side.
         share: f64,
     },
     /// A body has jumped.
     #[error(
-        "body `{body}` would jump by {way:.3e} against its loads, where nothing is moved by more than {driven:.3e}"
+        "body `{body}` would jump by {way:.3e} against its loads, although no prescribed displacement exceeds {driven:.3e}"
     )]
     Jump {
         /// Name of the body.
         body: String,
-        /// How far its middle would move.
+        /// Distance that its centre would move.
         way: f64,
         /// The longest way that is prescribed.
         driven: f64,
@@ -159,7 +159,7 @@ pub enum CutBack {
     },
     /// Contact that held a body has opened.
     #[error(
-        "pair `{pair}` lets go: {motion}; hold it by displacements, set `stabilise = true` in pair `{pair}`, or give the step inertia with `dynamics = {{}}`"
+        "contact in pair `{pair}` opened and nothing else restrains the bodies: {motion}; prescribe displacements, set `stabilise = true` in pair `{pair}`, or give the step inertia with `dynamics = {{}}`"
     )]
     Released {
         /// Name of the pair.
@@ -169,7 +169,7 @@ pub enum CutBack {
     },
     /// Stabilisation has not carried a body to contact that holds it.
     #[error(
-        "{motion} where stabilisation ends, which is at the end of the step; pair `{pair}` {}",
+        "{motion} at the end of the step, where stabilisation ends; pair `{pair}` {}",
         gap_text(*gap)
     )]
     NotBridged {
@@ -182,7 +182,7 @@ pub enum CutBack {
     },
     /// Friction does not hold a body against its loads.
     #[error(
-        "limit of friction reached: {} of pair `{pair}` slip, {motion}, with {reached:.4} of the step done",
+        "limit of friction reached: {} of pair `{pair}` slip, {motion}, at the fraction {reached:.4} of the step",
         all_nodes(*sticking)
     )]
     FrictionLimit {
@@ -197,7 +197,7 @@ pub enum CutBack {
     },
     /// The loads on a body act beside what it stands on.
     #[error(
-        "body `{body}` tips over the edge of what `{other}` supports: its loads act beside the surfaces of pair `{pair}` that touch, and nothing else holds it, with {reached:.4} of the step done"
+        "body `{body}` tips over the edge of its support `{other}`: its loads act outside the touching surfaces of pair `{pair}`, and nothing else restrains it, at the fraction {reached:.4} of the step"
     )]
     Tips {
         /// Name of the body.
@@ -211,29 +211,29 @@ pub enum CutBack {
     },
     /// A body has flown off.
     #[error(
-        "body `{body}` flies off: {node} would move by {way:.1e}, {times:.0e} times the size of the model. Nothing holds it, or loads are far beyond its stiffness: hold it by displacements or contact, give the step inertia with `dynamics = {{}}`, or compare loads per area with Young's modulus"
+        "body `{body}` flies off: {node} would move by {way:.1e}, {times:.0e} times the size of the model. Nothing restrains it, or loads far exceed its stiffness: restrain it by displacements or contact, give the step inertia with `dynamics = {{}}`, or compare loads per area with Young's modulus"
     )]
     Flown {
         /// Name of the body.
         body: String,
         /// The node that flies furthest.
         node: striae_mesh::NodeId,
-        /// How far.
+        /// Distance of the motion.
         way: f64,
-        /// The same over the size of the undeformed bodies.
+        /// Ratio to the size of the undeformed bodies.
         times: f64,
     },
     /// The linear system could not be solved.
     #[error("{place}{}", solving(place, error))]
     LinearSystem {
-        /// Which unknown is involved.
+        /// Unknown that is involved.
         place: String,
-        /// What went wrong.
+        /// Error of the solver.
         error: SolveError,
     },
 }
 
-/// Where a point was at the start of an increment.
+/// Position of a point at the start of an increment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Start {
     /// Outside, or hardly inside.
@@ -244,11 +244,11 @@ pub enum Start {
 
 fn overlap_text(body: &str, node: striae_mesh::NodeId, other: &str, depth: f64) -> String {
     let through = match body == other {
-        true => format!("body `{body}` goes through itself: {node} is {depth:.3e} inside"),
+        true => format!("body `{body}` passes through itself: {node} is {depth:.3e} inside"),
         false => format!("{node} of `{body}` is {depth:.3e} inside `{other}`"),
     };
     format!(
-        "{through}, and no pair lets the surfaces there touch; let everything touch (`all = true` of `[contact]`), state a pair of them, or keep them apart"
+        "{through}, and no pair joins the surfaces there; let everything touch (`all = true` of `[contact]`), add a pair, or keep them apart"
     )
 }
 
@@ -259,13 +259,13 @@ fn solving(place: &str, error: &SolveError) -> String {
             "; displacements, a tie or another pair prescribe how both surfaces move there: prescribe nodes away from the contact surface, or leave the facets around this node out of the pair".to_owned()
         }
         SolveError::Singular { .. } => {
-            "; prescribe displacements that hold it, load it towards what it touches, or set `stabilise = true` in its pair".to_owned()
+            "; prescribe displacements that restrain it, load it towards the bodies it touches, or set `stabilise = true` in its pair".to_owned()
         }
         SolveError::NotFinite { .. } => {
-            " has a term that is infinite or not a number; are moduli, sizes and loads in one system of units, and have all facets there an area?".to_owned()
+            " has a term that is infinite or not a number; check that moduli, sizes and loads are in one system of units, and that all facets there have an area".to_owned()
         }
         SolveError::NotPositiveDefinite { .. } => {
-            " resists some motion the wrong way round; take smaller increments, or other constants of the material".to_owned()
+            " has negative stiffness in some motion; use smaller increments, or other material constants".to_owned()
         }
         error => format!(": {error}"),
     }
@@ -274,13 +274,13 @@ fn solving(place: &str, error: &SolveError) -> String {
 fn all_nodes(sticking: usize) -> String {
     match sticking {
         0 => "all nodes".into(),
-        1 => "all nodes but one".into(),
-        count => format!("all nodes but {count}"),
+        1 => "all nodes except one".into(),
+        count => format!("all nodes except {count}"),
     }
 }
 
 fn free_text(stabilise: &Option<String>) -> String {
-    let hold = "prescribe displacements, or let contact hold it from the start";
+    let hold = "prescribe displacements, or start with contact closed";
     match stabilise {
         None => hold.into(),
         Some(pair) => format!("{hold}, or set `stabilise = true` in pair `{pair}`"),
@@ -289,14 +289,14 @@ fn free_text(stabilise: &Option<String>) -> String {
 
 fn gap_text(gap: f64) -> String {
     if gap > 0.0 {
-        format!("is {gap:.3e} apart: load the body towards the other side, or hold it")
+        format!("is {gap:.3e} apart: load the body towards the other side, or restrain it")
     } else {
-        "touches, but does not hold it: prescribe displacements, or give it friction".into()
+        "touches, but does not restrain it: prescribe displacements, or give it friction".into()
     }
 }
 
 impl CutBack {
-    /// What is to be done about it.
+    /// Remedy for the failure.
     pub fn remedy(&self) -> Remedy {
         match self {
             Self::Free { .. } => Remedy::None,
@@ -307,7 +307,7 @@ impl CutBack {
     }
 }
 
-/// What may help where an increment did not succeed.
+/// Remedies for an increment that did not succeed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Remedy {
     /// A smaller increment.
@@ -319,13 +319,13 @@ pub enum Remedy {
 /// A body that is free to move.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FreeMotion {
-    /// What it is.
+    /// Body or surface that is free to move.
     pub mover: FreeMover,
     /// The motions in words: `along x and about z`, or coordinates of a rigid body.
     pub motions: String,
 }
 
-/// What is free to move.
+/// Body that is free to move.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum FreeMover {
     /// A deformable body of this name.
@@ -339,7 +339,10 @@ impl std::fmt::Display for FreeMotion {
         let motions = &self.motions;
         match &self.mover {
             FreeMover::Body(name) => {
-                write!(f, "body `{name}` is not held: it is free to move {motions}")
+                write!(
+                    f,
+                    "body `{name}` is not restrained: it is free to move {motions}"
+                )
             }
             FreeMover::Rigid(name) => write!(f, "{motions} of `{name}` is free"),
         }
@@ -381,7 +384,7 @@ fn cycling_text(cycling: &[CyclingNode]) -> String {
     )
 }
 
-/// How a run ended.
+/// Ending of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Ending {
     /// All steps were completed.
@@ -392,7 +395,7 @@ pub enum Ending {
         step: String,
         /// Time of the last converged state.
         time: f64,
-        /// Why the last attempt failed.
+        /// Reason why the last attempt failed.
         reason: CutBack,
     },
     /// The observer asked to stop.

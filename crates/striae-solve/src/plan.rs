@@ -1,4 +1,4 @@
-//! What holds in each step: conditions accumulated over the steps before it.
+//! Conditions in force in each step, accumulated over the steps before it.
 
 use std::collections::BTreeMap;
 
@@ -29,16 +29,16 @@ pub struct StepPlan {
     pub gravity: VectorPlan,
 }
 
-/// How a displacement component or a coordinate is prescribed in a step.
+/// Prescription of a displacement component or a coordinate in a step.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Prescription {
-    /// It stays where the step finds it.
+    /// The quantity stays at its value at the start of the step.
     Hold,
-    /// It goes to the target along the curve.
+    /// The quantity moves to the target along the curve.
     Go {
         /// Value at `c = 1`.
         target: f64,
-        /// How it is approached.
+        /// Curve of the approach.
         curve: Curve,
     },
 }
@@ -56,9 +56,9 @@ pub struct PlannedLoad {
     pub from: Option<LoadKind>,
     /// Target.
     pub to: LoadKind,
-    /// Which part of the faces is loaded.
+    /// Part of the faces that is loaded.
     pub extent: LoadExtent,
-    /// How the target is approached.
+    /// Curve towards the target.
     pub curve: Curve,
 }
 
@@ -73,7 +73,7 @@ pub struct PlannedActuation {
     pub from: Option<ActuationKind>,
     /// Target.
     pub to: ActuationKind,
-    /// How the target is approached.
+    /// Curve towards the target.
     pub curve: Curve,
 }
 
@@ -84,7 +84,7 @@ pub struct VectorPlan {
     pub from: Vec3,
     /// Target.
     pub to: Vec3,
-    /// How the target is approached.
+    /// Curve towards the target.
     pub curve: Curve,
 }
 
@@ -152,7 +152,7 @@ impl VectorPlan {
         }
     }
 
-    /// What is reached at the end of the step, kept.
+    /// Copy in which values reached at the end of the step are held.
     fn held(&self) -> Self {
         Self {
             from: self.at(1.0),

@@ -51,11 +51,11 @@ pub struct Problem {
     pub reference: Vec<Vec3>,
     /// Reference elements of every body.
     pub elements: Vec<Elements>,
-    /// What the elements of every body are made of.
+    /// Materials of the elements of every body.
     pub compositions: Vec<Composition>,
     /// Contact pairs.
     pub pairs: Vec<PairGeometry>,
-    /// What holds in each step.
+    /// Conditions in force in each step.
     pub plans: Vec<StepPlan>,
     /// Nodes tied to every rigid body, with its mass points.
     pub tied: Vec<Vec<GlobalNode>>,
@@ -75,7 +75,7 @@ pub struct Problem {
     pub contact_facets: HashMap<(usize, Face), Vec<ContactFacet>>,
     /// The skins of all bodies of the whole.
     pub(crate) skin: Skin,
-    /// What of the whole problem it is.
+    /// Share of the whole problem.
     pub share: Share,
 }
 
@@ -93,7 +93,7 @@ pub struct PairGeometry {
     /// Faces of each deformable side, in the order of the facets; `None` where another rank has
     /// the element.
     pub faces: [Vec<Option<Face>>; 2],
-    /// How well conditioned the painting of each textured surface was.
+    /// Conditioning of the painting of each textured surface.
     pub conditionings: [Option<Conditioning>; 2],
     /// Fibres through what is behind the facets, see [`crate::interference`].
     pub fibres: [Vec<Option<Fibre>>; 2],
@@ -107,7 +107,7 @@ pub enum ProblemError {
     Element {
         /// Name of the body.
         body: String,
-        /// What is wrong.
+        /// Fault of the element.
         fault: ElementFault,
     },
     /// A tie is none.
@@ -124,7 +124,7 @@ pub enum ProblemError {
         surface: String,
         /// Node of its mesh.
         node: Option<NodeId>,
-        /// What is wrong.
+        /// Error of the texture.
         error: TextureError,
     },
     /// A texture on the second side of self-contact.
@@ -147,9 +147,9 @@ pub enum ProblemError {
         surface: String,
         /// The node.
         node: String,
-        /// Where it is; boxed, as errors should be small.
+        /// Position; boxed, as errors should be small.
         at: Box<Vec3>,
-        /// Why.
+        /// Reason.
         cause: Undirected,
     },
     /// A rigid plane has no nodes to paint.
@@ -247,8 +247,8 @@ impl Problem {
         })
     }
 
-    /// Whether the coordinates of a rigid body are unknowns: where nodes are tied to
-    /// it, and where contact may move it, as some are free in a step.
+    /// Returns whether the coordinates of a rigid body are unknowns: if nodes are tied to it, or if
+    /// contact may move it because some are free in a step.
     pub(crate) fn has_coordinates(&self, rigid: usize) -> bool {
         let free = |plan: &StepPlan| plan.rigid[rigid].iter().any(Option::is_none);
         !self.tied[rigid].is_empty() || self.plans.iter().any(free)

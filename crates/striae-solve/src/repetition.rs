@@ -25,12 +25,12 @@ pub struct Repetition<'a> {
     workspace: Workspace,
     /// The start of the step as this solver finds it.
     start: Result<State, CutBack>,
-    /// Where the next increment begins.
+    /// State at which the next increment starts.
     state: State,
     differences: Vec<Result<Difference, CutBack>>,
 }
 
-/// How far two states are apart.
+/// Distance between two states.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Difference {
     /// Largest distance between positions of a node, over the largest distance of one
@@ -53,8 +53,8 @@ impl<'a> Repetition<'a> {
         }
     }
 
-    /// What came of every increment: how far the other solver's state is from that of the
-    /// run, or why that solver would cut the increment.
+    /// Results for every increment: the distance of the other solver's state from that of the run,
+    /// or the reason why that solver would cut the increment.
     pub fn differences(&self) -> &[Result<Difference, CutBack>] {
         &self.differences
     }

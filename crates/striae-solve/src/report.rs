@@ -17,7 +17,7 @@ use striae_surface::node::SurfaceNode;
 
 use crate::{problem::Problem, rigid::Wrench, state::State};
 
-/// What a contact pair amounts to.
+/// Resultants of a contact pair.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PairReport {
     /// Name of the pair.
@@ -154,7 +154,7 @@ pub fn bodies(problem: &Problem, state: &State) -> Vec<BodyReport> {
         .collect()
 }
 
-/// What a rigid body amounts to.
+/// Resultants of a rigid body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RigidReport {
     /// Name of the body.

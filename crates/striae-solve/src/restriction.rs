@@ -55,7 +55,7 @@ impl Problem {
     }
 }
 
-/// What a rank holds of the whole.
+/// Part of the frame that a rank holds.
 fn restricted(whole: Frame, division: &Division, team: Arc<dyn Team>) -> Frame {
     let numbers = Numbers::new(&whole, division, team.rank());
     let holding = holding(&whole, division, &numbers, team.rank());

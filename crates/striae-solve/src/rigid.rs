@@ -24,7 +24,7 @@ use crate::{
     node::GlobalNode,
 };
 
-/// Where a rigid body is.
+/// Pose of a rigid body.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pose {
     /// Displacement of the reference point.
@@ -61,7 +61,7 @@ impl Wrench {
 }
 
 impl Pose {
-    /// Where a body is at first.
+    /// Initial pose of a body.
     pub fn at_rest() -> Self {
         Self {
             displacement: Vec3::zeros(),

@@ -16,7 +16,7 @@
 //! nodes of the section itself, and their inertia, count for the part in front. Tension is
 //! positive along `n`.
 //!
-//! Where ranks share a body, each has the elements behind that are its own, and their faces.
+//! If ranks share a body, each has those elements behind the plane that it owns, and their faces.
 
 mod borders;
 
@@ -37,7 +37,7 @@ pub struct Section {
     faces: Vec<[NodeId; 4]>,
 }
 
-/// Why a plane is no section of a body.
+/// Reason why a plane is not a section of a body.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum SectionError {
     /// No direction.
@@ -47,11 +47,11 @@ pub enum SectionError {
     #[error("all elements of the body are {0}")]
     OneSided(Part),
     /// No face is shared by both parts.
-    #[error("what is in front of the plane has no face in common with what is behind it")]
+    #[error("no element face lies between the parts in front of and behind the plane")]
     Apart,
 }
 
-/// Where elements are with respect to a plane.
+/// Position of elements relative to a plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
     /// On the side that the normal points to.
@@ -105,10 +105,10 @@ impl Section {
         Self::cut(mesh, point, normal, &Borders::of_whole())
     }
 
-    /// What a rank holds of the cut of a body of a problem; collective.
+    /// Part of the cut of a body that a rank holds; collective.
     ///
     /// # Errors
-    /// When the plane does not divide the elements of the whole body.
+    /// If the plane does not divide the elements of the whole body.
     pub fn of(
         problem: &Problem,
         body: usize,

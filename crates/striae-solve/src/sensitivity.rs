@@ -16,7 +16,7 @@
 //! velocities, tractions, internal variables, energies. So the derivative is that of the discrete
 //! equations, implicit differentiation with the converged tangent, and no history is kept.
 //!
-//! Where a node is at a kink, between stick and slip or open and closed, the derivative is
+//! At a kink, such as a node between stick and slip or open and closed, the derivative is
 //! one-sided: the neighbours take different branches there, see [`Kink`].
 
 use std::sync::Arc;
@@ -100,7 +100,7 @@ pub struct Kink {
 pub struct Unlike {
     /// Its name.
     pub parameter: String,
-    /// What it changes.
+    /// Part of the model that it changes.
     pub what: &'static str,
 }
 
@@ -271,7 +271,7 @@ fn kinks([less, more]: &[State; 2]) -> Vec<Kink> {
         .collect()
 }
 
-/// What of a problem is not as in another one, but for numbers.
+/// Part of a problem that differs from another one in more than numbers.
 fn unlike(problem: &Problem, other: &Problem) -> Option<&'static str> {
     let names = |problem: &Problem| -> [Vec<String>; 4] {
         let model = &problem.model;

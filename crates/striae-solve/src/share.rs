@@ -1,16 +1,16 @@
-//! What of a problem a rank holds.
+//! Share of a problem that a rank holds.
 //!
-//! The volume is divided by a [`Division`]: a rank has its own elements and their nodes. What
-//! grows with the surface only is *replicated*, all ranks hold it: the nodes of contact surfaces
+//! The volume is divided by a [`Division`]: a rank has its own elements and their nodes. Data that
+//! grow with the surface only are *replicated*, all ranks hold them: the nodes of contact surfaces
 //! and tied surfaces, nodes around the ends of fibres, nodes tied to rigid bodies and mass points.
-//! Nodes, elements and unknowns have local numbers in the order of those of the whole problem,
-//! so that sums over what is replicated are the same to the last bit on all ranks.
+//! Nodes, elements and unknowns have local numbers in the order of those of the whole problem, so
+//! that sums over replicated data agree to the last bit on all ranks.
 //! [`Problem::shared`](crate::problem::Problem::shared) makes the problem of a share.
 //!
-//! Every node has one *owner*, a rank that has an element of it: the one with most of them, of
-//! several as good the one that owns the fewest nodes so far. Mass points, the coordinates of
-//! rigid bodies and nodes without an element are owned by rank 0. Traction unknowns are owned
-//! with the node that carries them.
+//! Every node has one *owner*, a rank that has an element of it: the one with most of them, and
+//! among equals the one that owns the fewest nodes so far. Mass points, the coordinates of rigid
+//! bodies and nodes without an element are owned by rank 0. Traction unknowns are owned with the
+//! node that carries them.
 //!
 //! # What is of a share, what of the whole
 //!
@@ -27,9 +27,8 @@
 //!
 //! # What is partial
 //!
-//! What is summed over elements, over faces with loads, or over all nodes is a part of the
-//! whole on a share, and is reduced by whoever makes it, so that all functions that come to such
-//! sums are collective:
+//! Sums over elements, over faces with loads, or over all nodes are partial on a share and are
+//! reduced where they are formed, so all functions that need such sums are collective:
 //!
 //! | where | what | how |
 //! | --- | --- | --- |
@@ -52,13 +51,13 @@
 //! | `skin` | places of the nodes of all skins | sum over owned nodes |
 //! | `warning` | energy that is round-off, largest rotation | sum; largest |
 //!
-//! Once elements and loads are summed at nodes, all ranks that hold a node have the same bits of
-//! its residual. What follows from there, contact, ties, rigid bodies, mass points and what is
-//! carried over in time, is added by each of them, to the same bits again; so of the residual
-//! nothing is left out.
+//! Once elements and loads are summed at nodes, all ranks that hold a node have identical bits of
+//! its residual. Everything that follows from there, contact, ties, rigid bodies, mass points and
+//! terms carried over in time, is added by each of them, again with identical bits; no part of the
+//! residual is left out.
 //!
 //! Resultants of pairs, reports of ties, interference, passages, roles and status of contact nodes,
-//! offsets and poses follow from what is replicated alone and need nothing.
+//! offsets and poses follow from replicated data alone and need no communication.
 
 mod contact;
 mod division;
@@ -78,7 +77,7 @@ use crate::{
 pub(crate) use contact::shared_out;
 pub use division::Division;
 
-/// What of a problem a rank holds.
+/// Share of a problem that a rank holds.
 #[derive(Clone, Debug)]
 pub struct Share {
     team: Arc<dyn Team>,
@@ -93,7 +92,7 @@ pub struct Holding {
     pub owners: Vec<u32>,
     /// Place of each local node among all nodes that its owner owns, which are in their order.
     pub places: Vec<u32>,
-    /// How many nodes each rank owns.
+    /// Number of nodes that each rank owns.
     pub owned: Vec<usize>,
     /// Number of each local node in the whole problem, ascending.
     pub nodes: Vec<usize>,
@@ -106,24 +105,24 @@ pub struct Holding {
     pub elements: Vec<Vec<ElementId>>,
     /// Number in the whole mesh of each local node of each body, ascending.
     pub mesh_nodes: Vec<Vec<NodeId>>,
-    /// What is known of the whole.
+    /// Data of the whole problem.
     pub whole: Whole,
 }
 
-/// What a share knows of the whole problem.
+/// Data of the whole problem that a share keeps.
 #[derive(Clone, Debug)]
 pub struct Whole {
-    /// How many nodes there are, mass points with them.
+    /// Number of nodes, including mass points.
     pub nodes: usize,
-    /// How many nodes each body has.
+    /// Number of nodes of each body.
     pub mesh_nodes: Vec<usize>,
-    /// How many elements each body has.
+    /// Number of elements of each body.
     pub elements: Vec<usize>,
     /// Ends of the box around all nodes at rest.
     pub extent: [Vec3; 2],
-    /// How the pairs fit.
+    /// Initial fit of the pairs.
     pub fits: Vec<Option<Fit>>,
-    /// Whether they may ever meet.
+    /// `true` for pairs whose sides may ever meet.
     pub may_meet: Vec<bool>,
 }
 
@@ -149,7 +148,7 @@ impl Share {
         &*self.team
     }
 
-    /// What is held; `None` where that is the whole.
+    /// Description of the share; `None` if it is the whole problem.
     pub fn holding(&self) -> Option<&Holding> {
         self.holding.as_deref()
     }
@@ -160,18 +159,19 @@ impl Share {
         holding.map_or(0, |holding| holding.owners[node] as usize)
     }
 
-    /// Whether there is no other rank.
+    /// Returns whether there is no other rank.
     pub fn is_alone(&self) -> bool {
         self.team.size() == 1
     }
 
-    /// Whether this rank owns a node.
+    /// Returns whether this rank owns a node.
     pub fn owns(&self, node: GlobalNode) -> bool {
         let holding = self.holding.as_ref();
         holding.is_none_or(|holding| holding.owners[node] as usize == self.team.rank())
     }
 
-    /// Whether this rank owns what belongs to no node: the coordinates of rigid bodies.
+    /// Returns whether this rank owns the unknowns that belong to no node: the coordinates of rigid
+    /// bodies.
     pub fn owns_bodies(&self) -> bool {
         self.team.rank() == 0
     }
@@ -196,7 +196,7 @@ impl Share {
         holding.map_or(element, |holding| holding.elements[body][element.index()])
     }
 
-    /// How many nodes the whole problem has, where this rank holds `local` ones.
+    /// Number of nodes of the whole problem, of which this rank holds `local` ones.
     pub(crate) fn whole_node_count(&self, local: usize) -> usize {
         self.holding().map_or(local, |holding| holding.whole.nodes)
     }

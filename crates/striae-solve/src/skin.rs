@@ -27,7 +27,7 @@ pub(crate) struct Skin {
     skins: Skins,
     /// Body and node of its whole mesh, by node of the surface.
     nodes: Vec<(usize, NodeId)>,
-    /// Where the nodes are at rest.
+    /// Positions of the nodes at rest.
     reference: Vec<Vec3>,
     /// Sides of pairs that each node of the surface belongs to.
     sides: Vec<Vec<(usize, Side)>>,
@@ -48,7 +48,7 @@ pub struct BodyOverlap {
     pub node: NodeId,
     /// Body that it is inside of.
     pub other: usize,
-    /// How deep it was at the start of the increment.
+    /// Depth at the start of the increment.
     pub before: f64,
 }
 
@@ -82,7 +82,7 @@ impl Skin {
         }
     }
 
-    /// Where the nodes of the skins are; collective.
+    /// Positions of the nodes of the skins; collective.
     fn places(&self, share: &Share, positions: &[Vec3]) -> Vec<Vec3> {
         let own = self.skins.surface.nodes().iter().map(|node| {
             let local = share.local_node(GlobalNode(node.index()));
@@ -94,7 +94,7 @@ impl Skin {
         places
     }
 
-    /// Whether no pair sees a point of one body behind a facet.
+    /// Returns whether no contact pair and no tie covers a point and the facet it is behind.
     fn is_judged(&self, spot: Spot, facet: FacetId) -> bool {
         let [body, other] = [self.skins.body(spot), self.skins.bodies[facet.index()]];
         let [own, others] = [spot, Spot::Centre(facet)].map(|spot| self.sides_of(spot));

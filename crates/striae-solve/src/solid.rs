@@ -31,7 +31,7 @@ pub enum SolidError {
     },
     /// The facets look inward.
     #[error(
-        "the volume inside the surface is {volume}; facets must be outward by the right-hand rule"
+        "the enclosed volume is {volume}; facets must be oriented outward by the right-hand rule"
     )]
     InsideOut {
         /// The volume.

@@ -30,9 +30,9 @@ use crate::{
     rigid::Pose,
 };
 
-/// First increment of a step with a stabilised pair, unless a smaller one is asked for, and
-/// the largest one where all increments are to be larger. Loads are small at its end, and so
-/// is what they lose on the way to contact.
+/// First increment of a step with a stabilised pair, unless a smaller one is requested, and the
+/// largest one if all increments are to be larger. Loads are small at its end, and so is what they
+/// lose on the way to contact.
 const FIRST: [f64; 2] = [2e-3, 0.5];
 
 /// Relative motion of a node and what is opposite to it that is resisted.
@@ -56,17 +56,17 @@ pub struct Point {
     pub node: SurfaceNode,
     /// Weight in the relative motion.
     pub weight: f64,
-    /// Where it was at the start of the increment.
+    /// Position at the start of the increment.
     pub from: Vec3,
 }
 
-/// Whether a pair is stabilised in a step.
+/// Returns whether a pair is stabilised in a step.
 pub fn acts(model: &Model, step: usize, pair: usize) -> bool {
     let quasi_static = model.steps[step].procedure == Procedure::QuasiStatic;
     quasi_static && model.pairs[pair].stabilised
 }
 
-/// Whether any pair is stabilised in a step.
+/// Returns whether any pair is stabilised in a step.
 pub(crate) fn acts_in(model: &Model, step: usize) -> bool {
     (0..model.pairs.len()).any(|pair| acts(model, step, pair))
 }

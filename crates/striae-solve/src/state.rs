@@ -28,8 +28,8 @@ pub struct State {
     pub accelerations: Vec<Vec3>,
     /// Pose of every rigid body.
     pub rigid: Vec<Pose>,
-    /// What the quadrature points of every body have been through: the variables of their
-    /// materials by block, element and point. Empty for materials without a memory.
+    /// Internal variables of the quadrature points of every body, by block, element and point.
+    /// Empty for materials without internal variables.
     pub histories: Vec<Vec<f64>>,
     /// Actuation of the bodies.
     pub actuations: Actuations,
@@ -48,11 +48,11 @@ pub struct State {
 pub struct PairState {
     /// Traction unknowns.
     pub tractions: Tractions,
-    /// Which nodes were kept in the increment that led here.
+    /// Nodes that were kept in the increment that led to this state.
     pub kept: Kept,
     /// Pressure and components of `-tau` along the nodal tangents of all nodes, by side.
     pub carried: [Vec<[f64; 3]>; 2],
-    /// What is known of every surface node, by side.
+    /// Results at every surface node, by side.
     pub nodes: [Vec<NodeResult>; 2],
     /// Forces on the facets in contact, by side.
     pub facets: [Vec<(FacetId, FacetForces)>; 2],
@@ -78,12 +78,12 @@ pub struct NodalForces {
     pub ties: Vec<Vec3>,
     /// Forces of stabilisation, see [`crate::stabilisation`].
     pub stabilisation: Vec<Vec3>,
-    /// Those on every rigid body.
+    /// Stabilising forces and torques on every rigid body.
     pub stabilised: Vec<Wrench>,
     /// Force and torque that drive or hold every rigid body whose coordinates are
     /// unknowns, against the nodes tied to it and against contact.
     pub rigid: Vec<Wrench>,
-    /// What contact asks for of it.
+    /// Force and torque that contact exerts on every rigid body.
     pub pushed: Vec<Wrench>,
 }
 
@@ -142,14 +142,14 @@ impl NodalForces {
     }
 }
 
-/// How many variables the quadrature points of every body remember together.
+/// Number of internal variables of the quadrature points of every body.
 fn variables(problem: &Problem) -> impl Iterator<Item = usize> {
     let bodies = problem.compositions.iter();
     bodies.map(Composition::variable_count)
 }
 
 impl State {
-    /// Whether its bodies remember as much as those of a problem.
+    /// Returns whether its bodies have as many internal variables as those of a problem.
     pub fn remembers_as(&self, problem: &Problem) -> bool {
         self.histories.iter().map(Vec::len).eq(variables(problem))
     }

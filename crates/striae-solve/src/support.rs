@@ -1,4 +1,4 @@
-//! What bodies stand on: loads that contact cannot hold, however rough it is.
+//! Support of bodies: finds loads that contact cannot hold, however rough it is.
 //!
 //! The loads on a body, a force and a torque `w`, are in equilibrium with contact only if there are
 //! forces `f_k` at the points where it is supported that press, `-n . f_k >= 0`, with
@@ -7,11 +7,11 @@
 //! w + sum (f_k, x_k x f_k) = 0
 //! ```
 //!
-//! but for what is prescribed. A cone of friction with a coefficient of [`ROUGH`] has four edges, so
-//! that this asks for weights `c >= 0` of the columns of a matrix, found by least squares (Lawson &
-//! Hanson, *Solving Least Squares Problems* (1974), chapter 23). What is left of `w` nothing holds:
-//! the body tips over an edge, or is lifted off. Points are those of a grid on its facets that face
-//! the other side and touch it.
+//! except for prescribed components. A cone of friction with a coefficient of [`ROUGH`] is
+//! approximated by four edges, so the task is to find weights `c >= 0` of the columns of a matrix
+//! by least squares (Lawson & Hanson, *Solving Least Squares Problems* (1974), chapter 23). The
+//! remainder of `w` is held by nothing: the body tips over an edge, or is lifted off. Points are
+//! those of a grid on its facets that face the other side and touch it.
 
 use nalgebra::{DMatrix, DVector, Matrix6, SymmetricEigen, Vector6};
 use striae_contact::{
@@ -35,7 +35,7 @@ const INTERVALS: usize = 8;
 const POINTS: usize = 20_000;
 /// Gap over the facet size up to which a point is supported.
 const TOUCHING: f64 = 0.05;
-/// What may be left of the loads where they are held, over their size.
+/// Remainder of the loads, relative to their size, up to which they count as held.
 const LEFT: f64 = 1e-3;
 
 /// A body that contact cannot hold against its loads.
@@ -81,7 +81,7 @@ pub(crate) fn tipping(
     })
 }
 
-/// Where moments are taken about, and their arm.
+/// Reference point of moments, and their arm.
 struct Frame {
     middle: Vec3,
     size: f64,
@@ -123,7 +123,7 @@ impl Frame {
         sum
     }
 
-    /// What takes out of forces and torques that which prescribed nodes hold.
+    /// Projection that removes from forces and torques the part that prescribed nodes hold.
     fn held(&self, context: &StepContext, body: usize, state: &State) -> Matrix6<f64> {
         let problem = context.problem;
         let mut normal = Matrix6::zeros();
@@ -201,7 +201,7 @@ fn grid(intervals: usize) -> impl Iterator<Item = (f64, f64)> {
     (0..=intervals).flat_map(move |i| (0..=intervals).map(move |j| (at(i), at(j))))
 }
 
-/// What is left of `w` by the best sum of columns with weights that are not negative.
+/// Remainder of `w` after the best combination of columns with nonnegative weights.
 fn left(columns: &[Vector6<f64>], w: &Vector6<f64>) -> f64 {
     const ROUND_OFF: f64 = 1e-10;
     let mut weights = vec![0.0; columns.len()];

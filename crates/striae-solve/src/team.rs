@@ -17,10 +17,10 @@ pub trait Team: Debug + Send + Sync {
     /// Number of this rank, from 0.
     fn rank(&self) -> usize;
 
-    /// How many there are.
+    /// Number of ranks.
     fn size(&self) -> usize;
 
-    /// What every rank gives, in the order of the ranks; the same on all.
+    /// Gathers the bytes of every rank, in the order of the ranks; all ranks receive equal lists.
     fn gather(&self, own: &[u8]) -> Vec<Vec<u8>>;
 
     /// Gives every rank what is meant for it, and returns what came from each.

@@ -55,9 +55,9 @@ pub struct Follower {
     pub tie: usize,
     /// The node.
     pub node: GlobalNode,
-    /// What its row says: nodes, which may follow others, and weights.
+    /// Row of the tie: nodes, which may depend on others, and weights.
     pub row: Weights,
-    /// The same in terms of nodes that follow none.
+    /// Row in terms of independent nodes.
     pub weights: Weights,
 }
 
@@ -80,14 +80,14 @@ pub struct Joint {
     pub(crate) nodes: [Vec<GlobalNode>; 2],
     /// Their facets in nodes of the meshes; a triangle repeats its last corner.
     facets: [Vec<[NodeId; 4]>; 2],
-    /// What is tied, by facet of the side that follows.
+    /// Tied areas, by facet of the dependent side.
     patches: Vec<Patch>,
 }
 
 /// All ties of a model.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Ties {
-    /// What each of them is.
+    /// Description of each tie.
     pub joints: Vec<Joint>,
     /// Nodes that follow, ascending.
     followers: Vec<Follower>,
@@ -101,7 +101,7 @@ impl Ties {
     /// The ties of a model.
     ///
     /// # Errors
-    /// All ties that are none.
+    /// All invalid ties.
     pub fn new(model: &Model) -> Result<Self, Vec<TieFault>> {
         if model.ties.is_empty() {
             return Ok(Self::default());
@@ -140,7 +140,7 @@ impl Ties {
         start::moved(self, model)
     }
 
-    /// Whether no node follows.
+    /// Returns whether no node depends on others.
     pub fn is_empty(&self) -> bool {
         self.followers.is_empty()
     }
@@ -150,13 +150,13 @@ impl Ties {
         &self.followers
     }
 
-    /// How a node follows, if it does.
+    /// Dependence of a node on others, if there is any.
     pub fn follower(&self, node: GlobalNode) -> Option<&Follower> {
         let at = self.of_node.get(node.0).copied().flatten()?;
         Some(&self.followers[at as usize])
     }
 
-    /// What a component of a node follows, if it does.
+    /// Nodes that a component of a node depends on, with weights, if it does.
     pub fn followed(&self, node: GlobalNode, axis: usize) -> Option<&[(GlobalNode, f64)]> {
         self.follower(node)?.weights[axis].as_deref()
     }
@@ -186,7 +186,7 @@ impl Ties {
         Surface::new(&self.joints[tie].facets[side])
     }
 
-    /// Whether a body has a side in a tie.
+    /// Returns whether a body has a side in a tie.
     pub fn joins(&self, body: usize) -> bool {
         self.joints.iter().any(|joint| joint.bodies.contains(&body))
     }

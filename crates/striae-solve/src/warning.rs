@@ -1,4 +1,4 @@
-//! What a run should be read with care for.
+//! Warnings: reasons to distrust a converged result.
 //!
 //! Each converged increment is judged, and the worst of every kind is kept for every
 //! pair:
@@ -28,7 +28,7 @@
 //! | `never-touched` | the smallest distance at the start; after a completed run | - |
 //! | `never-meets` | the same, before the run | - |
 //!
-//! Longer than other files, as it is the one list of all that is judged.
+//! Longer than other files, as it is the one list of all checks.
 
 use serde::{Deserialize, Serialize};
 use striae_contact::{
@@ -59,7 +59,7 @@ const UNFELT: f64 = 0.02;
 /// Something that makes results doubtful, with the number it is judged by.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Warning {
-    /// What it is about.
+    /// Subject of the warning.
     pub kind: Kind,
     /// Name of the contact pair or tie, if it is about one.
     pub pair: Option<String>,
@@ -140,7 +140,7 @@ impl Kind {
         Self::NeverMeets,
     ];
 
-    /// What files call it.
+    /// Name in files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Mismatch => "mismatch",
@@ -181,7 +181,7 @@ impl Kind {
     }
 }
 
-/// What has been judged of a run so far.
+/// Findings about a run so far.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Judgement {
     /// The worst of every kind and pair.
@@ -542,8 +542,8 @@ fn linear_text(problem: &Problem) -> String {
     let names = linear.map(|(_, body)| format!("`{}`", body.name));
     let names: Vec<String> = names.collect();
     match &names[..] {
-        [name] => format!("body {name} turns by up to"),
-        names => format!("one of the bodies {} turns by up to", names.join(", ")),
+        [name] => format!("body {name} rotates by up to"),
+        names => format!("one of the bodies {} rotates by up to", names.join(", ")),
     }
 }
 
@@ -606,45 +606,47 @@ fn warning(problem: &Problem, worst: &Worst) -> Warning {
             "pair `{name}`: the moments on its sides differ by {value:.1e} of force times size at time {time:.4}"
         ),
         Kind::Tension => format!(
-            "pair `{name}`: contact pulls with {value:.1e} of the largest pressure at time {time:.4}"
+            "pair `{name}`: contact is tensile by {value:.1e} of the largest pressure at time {time:.4}"
         ),
         Kind::Penetration => format!(
-            "pair `{name}`: its sides are inside each other by {percent:.0} % of the smaller facet size at time {time:.4}"
+            "pair `{name}`: its sides penetrate each other by {percent:.0} % of the smaller facet size at time {time:.4}"
         ),
         Kind::Unfelt => format!(
-            "pair `{name}`: its sides are inside each other by {percent:.1} % of the facet size at time {time:.4}, and contact does not feel it; refine the coarser side there"
+            "pair `{name}`: its sides penetrate each other by {percent:.1} % of the facet size at time {time:.4}, unnoticed by contact; refine the coarser side there"
         ),
         Kind::Overlap => format!(
-            "body `{name}` is inside itself, or another body that it has no pair with, by {percent:.0} % of the facet size at time {time:.4}"
+            "body `{name}` penetrates itself, or another body without a pair between them, by {percent:.0} % of the facet size at time {time:.4}"
         ),
         Kind::Coarse => format!(
-            "pair `{name}`: facets of {size:.2e} at {place} are too coarse for the zone of contact at time {time:.4}, where its force is largest; {:.2e} would do",
+            "pair `{name}`: facets of size {size:.2e} at {place} are too coarse for the contact zone at time {time:.4}, where its force is largest; a size of {:.2e} suffices",
             size / value
         ),
         Kind::Passage => {
             format!("pair `{name}`: its sides have passed through each other at time {time:.4}")
         }
         Kind::Creation => format!(
-            "pair `{name}`: friction makes energy, {value:.1e} of the largest one in the increment to time {time:.4}"
+            "pair `{name}`: friction creates energy, {value:.1e} of the largest energy in the increment to time {time:.4}"
         ),
         Kind::Gain => format!(
-            "pair `{name}`: friction pushes {place} along its slip in the increment to time {time:.4}, which gains {percent:.0} % of what friction works on its side"
+            "pair `{name}`: friction pushes {place} in the direction of its slip in the increment to time {time:.4} and gains {percent:.0} % of the frictional work on its side"
         ),
         Kind::Contact => format!(
-            "contact has made energy until time {time:.4} that friction does not explain, {percent:.0} % of the largest external work or work of actuation"
+            "contact has created energy up to time {time:.4}, besides friction, of {percent:.0} % of the largest external work or work of actuation"
         ),
         Kind::Imbalance => {
-            format!("energy of {value:.1e} of the largest one is found nowhere at time {time:.4}")
+            format!(
+                "the energy balance is violated by {value:.1e} of the largest energy at time {time:.4}"
+            )
         }
         Kind::Residual => format!(
-            "the increment to time {time:.4} was accepted with a residual of {value:.1e}, above the tolerance of {:.1e}: corners of facets lie so close to opposing edges that what contact integrates jumps by as much",
+            "the increment to time {time:.4} was accepted with a residual of {value:.1e}, above the tolerance of {:.1e}: corners of facets lie so close to opposing edges that the integrals of contact jump by as much",
             problem.model.solver.tolerance
         ),
         Kind::Stabilisation => format!(
-            "stabilisation has taken {percent:.1} % of the work of the step that ends at time {time:.4}"
+            "stabilisation has dissipated {percent:.1} % of the work of the step that ends at time {time:.4}"
         ),
         Kind::Rotation => format!(
-            "{} {:.0} degrees at time {time:.4}: linear elasticity takes rotations for strains, of {:.1e} here; use neo-hookean",
+            "{} {:.0} degrees at time {time:.4}: linear elasticity turns rotations into strains, of {:.1e} here; use neo-hookean",
             linear_text(problem),
             value.to_degrees(),
             1.0 - value.cos()
@@ -667,10 +669,10 @@ fn tie_text(worst: &Worst, name: &str) -> String {
     let &Worst { value, time, .. } = worst;
     match worst.kind {
         Kind::TieMoment => format!(
-            "tie `{name}`: the moments on its sides differ by {value:.1e} of what it transmits times its size at time {time:.4}; prescribe all or none of the components of its edge nodes"
+            "tie `{name}`: the moments on its sides differ by {value:.1e} of its force times its size at time {time:.4}; prescribe all or none of the components of its edge nodes"
         ),
         _ => format!(
-            "tie `{name}`: the forces on its sides differ by {value:.1e} of what it transmits at time {time:.4}"
+            "tie `{name}`: the forces on its sides differ by {value:.1e} of its force at time {time:.4}"
         ),
     }
 }
@@ -681,7 +683,7 @@ impl std::fmt::Display for Warning {
     }
 }
 
-/// What a model should be read with care for, given how its pairs fit.
+/// Warnings about a model before it is run, given how its pairs fit.
 pub fn warnings_at_start(model: &Model, fits: &[Option<Fit>]) -> Vec<Warning> {
     never(model, fits, |pair| {
         let fit = fits[pair].as_ref();
@@ -707,7 +709,7 @@ fn never(model: &Model, fits: &[Option<Fit>], may_meet: impl Fn(usize) -> bool) 
                 limit: 0.0,
                 time: 0.0,
                 text: format!(
-                    "pair `{name}` can never meet: `{a}` and `{b}` are {distance:.3e} apart, and no prescribed displacement closes that"
+                    "pair `{name}` can never meet: `{a}` and `{b}` are {distance:.3e} apart, and no prescribed displacement closes this gap"
                 ),
             });
         }

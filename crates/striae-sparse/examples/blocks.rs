@@ -103,7 +103,7 @@ fn condensation(
     Ok(())
 }
 
-/// Whether the face of the lower block carries multipliers.
+/// Option to tie the face of the lower block by multipliers.
 #[derive(Clone, Copy, PartialEq)]
 enum Ties {
     None,

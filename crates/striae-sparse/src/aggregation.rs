@@ -36,7 +36,7 @@ const LEVELS: usize = 12;
 pub const SLOW: f64 = 0.7;
 /// Coupling above which nodes of the finest level may be in one aggregate.
 const STRONG: f64 = 0.06;
-/// The same of a level over that of the finer one.
+/// Ratio of the threshold of a level to that of the next finer one.
 const LOOSER: f64 = 0.5;
 
 /// Levels of a symmetric positive definite matrix of 3 by 3 blocks.

@@ -47,7 +47,7 @@ impl PlacedBlock<'_> {
 /// A square matrix whose rows list the entries that are not zero.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CompressedRows {
-    /// Where the entries of each row start, and where the last ones end.
+    /// Starts of the entries of each row, and the end of the last ones.
     starts: Vec<usize>,
     columns: Vec<u32>,
     values: Vec<f64>,
@@ -138,7 +138,7 @@ impl CompressedRows {
         self.starts.len().saturating_sub(1)
     }
 
-    /// Whether all entries are zero.
+    /// Returns whether all entries are zero.
     pub fn is_zero(&self) -> bool {
         self.values.is_empty()
     }
@@ -235,7 +235,7 @@ fn parts(structure: &Structure, blocks: &[PlacedBlock]) -> Vec<Part> {
     parts
 }
 
-/// What a thread sums in.
+/// Buffers in which one thread sums.
 #[derive(Default)]
 struct Buffers {
     /// Rows of an owner as the pattern has them.
@@ -246,7 +246,7 @@ struct Buffers {
 
 /// The rows of one supervariable.
 struct Rows {
-    /// Where the entries of each row end.
+    /// Ends of the entries of each row.
     ends: Vec<usize>,
     columns: Vec<u32>,
     values: Vec<f64>,

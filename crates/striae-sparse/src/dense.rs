@@ -1,13 +1,11 @@
 //! Partial LU of a dense front with threshold pivoting among its pivot rows.
 //!
-//! The front is `m x m`; its first `summed` rows and columns are fully summed.
-//! It is kept in three column-major pieces: `left` (`m x summed`), `above`
-//! (`summed x rest`) and `rest` (`rest x rest`, the contribution). A column is
-//! eliminated when one of the fully summed rows has an entry of at least
-//! [`THRESHOLD`] times the largest in the column; otherwise it moves to the
-//! end and, when nothing more can be eliminated, is left to the parent. The
-//! elimination is recursive (Toledo, doi:10.1137/S0895479896297744), so nearly
-//! all work is in matrix products.
+//! The front is `m x m`; its first `summed` rows and columns are fully summed. It is kept in three
+//! column-major pieces: `left` (`m x summed`), `above` (`summed x rest`) and `rest` (`rest x rest`,
+//! the contribution). A column is eliminated if one of the fully summed rows has an entry of at
+//! least [`THRESHOLD`] times the largest in the column; otherwise it moves to the end and, when
+//! nothing more can be eliminated, is left to the parent. The elimination is recursive (Toledo,
+//! doi:10.1137/S0895479896297744), so nearly all work is in matrix products.
 //!
 //! Products are cut into pieces of columns whose number depends on the sizes
 //! alone: the result is the same to the last bit for any number of threads.
@@ -24,7 +22,7 @@ use rayon::prelude::*;
 pub const THRESHOLD: f64 = 0.01;
 /// Largest magnitude in a column of the equilibrated matrix that counts as zero.
 const TINY: f64 = 4.0 * f64::EPSILON;
-/// Pivot put in the place of a zero in a front without a parent.
+/// Pivot that replaces a zero in a front without a parent.
 const REPLACEMENT: f64 = 1.0 / ((1_u64 << 26) as f64);
 /// Columns that are eliminated one by one.
 const NARROW: usize = 8;
@@ -35,10 +33,10 @@ const PARALLEL_SWAPS: usize = 1 << 15;
 const COLUMNS: usize = 96;
 const ROWS_FLOPS: usize = 500_000;
 
-/// What becomes of columns that cannot be eliminated.
+/// Treatment of columns that cannot be eliminated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Leftover {
-    /// They are left to the parent.
+    /// The columns are left to the parent.
     Delay,
     /// There is no parent: a replacement pivot is put in.
     Replace,
@@ -60,7 +58,7 @@ pub struct Panel<'a> {
 pub struct Eliminated {
     /// Pivots that were eliminated.
     pub pivots: usize,
-    /// Those that were replaced.
+    /// Number of columns with replaced pivots.
     pub replaced: usize,
     /// Smallest magnitude of a pivot.
     pub smallest: f64,

@@ -17,7 +17,7 @@ use rayon::prelude::*;
 /// Entries of a subtree below which it is run through in sequence.
 const SEQUENTIAL: usize = 1 << 17;
 
-/// Where everything is.
+/// Positions of all values.
 #[derive(Debug)]
 pub(crate) struct Descent {
     fronts: Vec<Step>,
@@ -115,7 +115,7 @@ impl Descent {
     }
 }
 
-/// What is left of a vector, and roots of subtrees with their ranges of it.
+/// Remaining part of a vector, and roots of subtrees with their ranges in it.
 type Ranges<'a, T> = (&'a mut [T], Vec<(usize, &'a mut [T])>);
 
 /// One way up or down.
@@ -126,7 +126,7 @@ struct Pass<'a, T> {
 }
 
 impl<T: Real> Pass<'_, T> {
-    /// What the border of a subtree receives; empty when that is zero.
+    /// Contribution of a subtree to its border; empty if it is zero.
     fn upwards(self, f: usize, y: &mut [T]) -> Vec<T> {
         let step = &self.plan.fronts[f];
         if y.iter().all(|&y| y == T::default()) {

@@ -37,8 +37,8 @@ impl Neighbourhood {
         self.weights.push(weight.max(1) as i32);
     }
 
-    /// Whether all is counted in 32 bits, every neighbour is another vertex, and every edge is
-    /// stated at both ends.
+    /// Returns whether all counts fit into 32 bits, every neighbour is a different vertex, and
+    /// every edge is stated at both ends.
     fn is_sound(&self) -> bool {
         let count = self.weights.len();
         let most = i32::MAX as usize;

@@ -26,7 +26,7 @@ pub(crate) struct FrontFactor {
     pub(crate) enlarged: Vec<f64>,
 }
 
-/// What all fronts of a factorisation share.
+/// Data shared by all fronts of a factorisation.
 #[derive(Clone, Copy)]
 pub(crate) struct System<'a> {
     pub(crate) tree: &'a AssemblyTree,

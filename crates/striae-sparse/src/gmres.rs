@@ -18,7 +18,7 @@ pub struct Correction {
     pub iterations: usize,
 }
 
-/// When a cycle ends.
+/// Criteria by which a cycle ends.
 #[derive(Clone, Copy)]
 pub struct Ends {
     /// Number of iterations.

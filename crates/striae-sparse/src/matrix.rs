@@ -259,7 +259,7 @@ struct Run {
     end: usize,
     /// First unknown of the supervariable.
     first: usize,
-    /// Whether each unknown is one more than the one before.
+    /// `true` if the unknowns have consecutive numbers.
     is_consecutive: bool,
 }
 

@@ -41,7 +41,7 @@ struct Symbolic {
     tree: AssemblyTree,
 }
 
-/// Whether the numeric part can be used.
+/// State of the numeric factorisation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum State {
     #[default]
@@ -55,7 +55,7 @@ impl MultifrontalLu {
         Self::default()
     }
 
-    /// `x := A^-1 x` with the factors as they are, without refinement; nothing without factors.
+    /// `x := A^-1 x` with the present factors, without refinement; nothing without factors.
     pub fn substitute(&self, x: &mut [f64]) {
         if let Some(symbolic) = &self.symbolic {
             self.scaling.scale_rows(x);

@@ -16,9 +16,9 @@ const SEQUENTIAL_SHARE: f64 = 1.0 / 48.0;
 /// Work below which a subtree is factored in sequence in any case.
 const SEQUENTIAL_FLOPS: f64 = 2e7;
 
-/// What a factorisation does at one front.
+/// Work of a factorisation at one front.
 pub(crate) trait Kernel: Sync {
-    /// What it keeps of a front apart from the values.
+    /// Data kept of a front besides its values.
     type Factor: Clone + Default + Send;
     /// Numbers that it works with.
     type Value: Real;
@@ -49,7 +49,7 @@ pub(crate) trait Kernel: Sync {
     );
 }
 
-/// What a front adds to its parent; the values are kept apart.
+/// Contribution of a front to its parent; the values are stored separately.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Contribution {
     /// Number of rows and columns: delayed pivots, then the border.

@@ -25,7 +25,7 @@ pub trait LinearOperator: Sync {
     /// When a vector does not have one entry per unknown.
     fn multiply(&self, x: &[f64], y: &mut [f64]);
 
-    /// What each row of `A x` sums up, unknowns measured in `units`.
+    /// Sums over each row of `A x`, with unknowns measured in `units`.
     fn row_sums(&self, x: &[f64], units: &[f64]) -> Vec<RowSums>;
 
     /// `b - A x` and its componentwise backward error, unknowns measured in `units`.

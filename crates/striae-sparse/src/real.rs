@@ -52,14 +52,14 @@ pub trait Real:
 
     /// The nearest one.
     fn of(value: f64) -> Self;
-    /// The same in double precision.
+    /// Conversion to double precision.
     fn double(self) -> f64;
     /// Its root.
     fn root(self) -> Self;
 
     /// A slice by whole lanes, and what is left.
     fn lanes<S: Simd>(values: &[Self]) -> (&[Self::Lanes<S>], &[Self]);
-    /// The same to be written.
+    /// Mutable version of [`lanes`](Self::lanes).
     fn lanes_mut<S: Simd>(values: &mut [Self]) -> (&mut [Self::Lanes<S>], &mut [Self]);
     /// One value in all lanes.
     fn splat<S: Simd>(simd: S, value: Self) -> Self::Lanes<S>;

@@ -83,7 +83,7 @@ pub fn solve(
 
 /// Solves `matrix x = rhs` by one cycle of GMRES with factors of a nearby matrix.
 ///
-/// `None` when the residual of the equilibrated system is not as small as asked for.
+/// `None` if the residual of the equilibrated system is not as small as requested.
 pub fn solve_nearby(
     matrix: &dyn LinearOperator,
     scaling: &Equilibration,

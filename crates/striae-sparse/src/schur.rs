@@ -149,7 +149,7 @@ impl SchurCholesky {
         })
     }
 
-    /// The same column by column.
+    /// Values of the complement, column by column.
     pub fn complement_values(&self) -> Values<'_> {
         let begin = |values: usize| values.saturating_sub(self.kept.len().pow(2));
         match &self.factors {
@@ -175,7 +175,8 @@ impl SchurCholesky {
         })
     }
 
-    /// What the interior takes off the kept unknowns joins them in double precision.
+    /// Returns the right-hand side of the kept unknowns in double precision, after elimination of
+    /// the interior.
     fn condensed<T: Real>(&self, values: &[T], rhs: &[f64]) -> Vec<f64> {
         let interior = self.order.len() - self.kept.len();
         let scaled = |&u: &u32| T::of(rhs[u as usize] * self.scales[u as usize]);
@@ -201,7 +202,7 @@ impl SchurCholesky {
         })
     }
 
-    /// What is kept stays as it is, to the last bit.
+    /// Returns the full solution; the kept unknowns are unchanged to the last bit.
     fn expanded<T: Real>(&self, values: &[T], condensed: Vec<f64>) -> Vec<f64> {
         let unknowns = self.order.iter().map(|&u| u as usize);
         let mut y: Vec<T> = unknowns.map(|u| T::of(condensed[u])).collect();

@@ -1,4 +1,4 @@
-//! Whether a factored matrix is singular, and which unknown shows it.
+//! Test of whether a factored matrix is singular, and of which unknown shows it.
 //!
 //! One step of inverse iteration with `A A^T`, `w = A^-T z`, `v = A^-1 w`,
 //! from a fixed pseudo-random `z` gives the singular vectors of the smallest
@@ -6,8 +6,8 @@
 //! working precision. The largest components of `v` and `w` name an unknown
 //! that is not determined and an equation that depends on others.
 //!
-//! When tiny pivots were replaced the factors are those of a matrix `M` near
-//! `A`; the step `v := v - M^-1 A v` then projects on the null space of `A`.
+//! If tiny pivots were replaced, the factors are those of a matrix `M` near `A`; the step `v := v -
+//! M^-1 A v` then projects on the null space of `A`.
 
 use crate::{equilibration::Equilibration, error::SolveError, matrix::SparseMatrix};
 
@@ -17,7 +17,7 @@ pub trait Factors {
     fn solve_in_place(&self, x: &mut [f64]);
 }
 
-/// The same for the transposed matrix.
+/// Factors that also solve with the transposed matrix.
 pub trait TransposedFactors: Factors {
     /// `x := (R A C)^-T x`.
     fn solve_transposed_in_place(&self, x: &mut [f64]);

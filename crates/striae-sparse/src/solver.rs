@@ -1,4 +1,4 @@
-//! What every solver offers: analyse once, factor per matrix, solve per right-hand side.
+//! Interface of all solvers: analyse once, factor per matrix, solve per right-hand side.
 
 use crate::{
     error::SolveError, matrix::SparseMatrix, products::LinearOperator, structure::Structure,
@@ -38,7 +38,7 @@ pub struct Cost {
     pub peak_bytes: usize,
 }
 
-/// What a factorisation met.
+/// Findings of a factorisation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FactorReport {
     /// Entries of the factors.
@@ -49,7 +49,7 @@ pub struct FactorReport {
     pub perturbed_pivots: usize,
 }
 
-/// How accurate a solution is and what it took.
+/// Accuracy and cost of a solution.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SolveReport {
     /// Componentwise backward error; with older factors the size of the residual of the
@@ -66,9 +66,9 @@ pub struct SolveReport {
 /// Age of factors.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Age {
-    /// They are of the matrix that is solved with.
+    /// The factors are of the matrix that is solved with.
     #[default]
     Fresh,
-    /// They are of an earlier one and serve as a preconditioner.
+    /// The factors are of an earlier matrix and serve as a preconditioner.
     Stale,
 }

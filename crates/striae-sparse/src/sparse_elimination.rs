@@ -19,7 +19,7 @@ pub const DROPPED: f64 = 1e-16;
 /// Entries of a row with their columns, rising.
 pub type Row = Vec<(u32, f64)>;
 
-/// What was eliminated, in order.
+/// Record of an elimination, in order.
 #[derive(Debug, Default)]
 pub struct SparseElimination {
     /// The steps.
@@ -44,7 +44,7 @@ pub struct Pivot {
     lower: (usize, usize),
 }
 
-/// How readily a column is taken as a pivot: low ranks first.
+/// Preference for a column as a pivot: low ranks first.
 pub type Ranks<'a> = &'a [u8];
 
 impl SparseElimination {

@@ -49,7 +49,7 @@ impl Structure {
         Self(Arc::new(Pattern::new(offsets, tiers, starts, neighbours)))
     }
 
-    /// The same structure with other ordering tiers, one per supervariable.
+    /// Copy of the structure with other ordering tiers, one per supervariable.
     pub fn with_tiers(&self, tiers: Vec<Tier>) -> Result<Self, StructureError> {
         let expected = self.supervariables();
         if tiers.len() != expected {
@@ -64,7 +64,7 @@ impl Structure {
         })))
     }
 
-    /// The same structure with more cliques.
+    /// Copy of the structure with additional cliques.
     pub fn grown<C: AsRef<[Supervariable]>>(&self, cliques: &[C]) -> Result<Self, StructureError> {
         let p = &*self.0;
         let (starts, neighbours) = adjacency(self.supervariables(), cliques, Some(p))?;
@@ -120,7 +120,7 @@ impl Structure {
             .map(|&j| Supervariable(j as usize))
     }
 
-    /// Whether two handles describe the same structure.
+    /// Returns whether two handles refer to one structure.
     pub fn same_as(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.0, &other.0) || self.0 == other.0
     }
@@ -184,12 +184,12 @@ impl Structure {
         self.column_groups(i).flatten()
     }
 
-    /// The same, by the supervariables that the columns belong to.
+    /// Column ranges grouped by the supervariables they belong to.
     pub fn column_groups(&self, i: usize) -> impl Iterator<Item = Range<usize>> + '_ {
         self.edges(i).map(|edge| self.group(self.target(edge)))
     }
 
-    /// Where the values of all rows of supervariable `i` are.
+    /// Range of the values of all rows of supervariable `i`.
     pub fn rows(&self, i: usize) -> Range<usize> {
         let start = self.0.values[i];
         start..start + self.group(i).len() * self.row_length(i)

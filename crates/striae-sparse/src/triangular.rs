@@ -29,7 +29,7 @@ pub struct Block<'a, T = f64> {
     stride: usize,
 }
 
-/// What stands on the diagonal of a triangle.
+/// Diagonal of a triangular matrix.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Diagonal {
     /// The stored values.

@@ -56,8 +56,7 @@ impl Shape {
         corners[at.unwrap_or(0)]
     }
 
-    /// How far the point lies outside the facet in its own coordinates;
-    /// negative inside.
+    /// Distance of the point outside the facet in its own coordinates; negative inside.
     pub fn excess(self, xi: f64, eta: f64) -> f64 {
         match self {
             Shape::Triangle => (-xi).max(-eta).max(xi + eta - 1.0),

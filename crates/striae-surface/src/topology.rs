@@ -91,10 +91,10 @@ impl Surface {
         }
     }
 
-    /// The same surface where the nodes of the mesh have other numbers, in the same order.
+    /// Copy of the surface for a mesh whose nodes have other numbers in unchanged order.
     ///
     /// # Panics
-    /// When the order is another one.
+    /// If the order changes.
     pub fn renumbered(mut self, number: impl Fn(NodeId) -> NodeId) -> Self {
         self.nodes.iter_mut().for_each(|node| *node = number(*node));
         assert!(self.nodes.is_sorted(), "nodes keep their order");
@@ -128,7 +128,7 @@ impl Surface {
         &self.boundary_edges
     }
 
-    /// Whether the surface node lies on an edge of the surface.
+    /// Returns whether the surface node lies on an edge of the surface.
     pub fn is_on_boundary(&self, node: SurfaceNode) -> bool {
         self.on_boundary[node]
     }

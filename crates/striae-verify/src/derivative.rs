@@ -31,7 +31,7 @@ const SLACK: f64 = 0.25;
 /// Random directions tried by [`assert_derivative`].
 const DIRECTIONS: u64 = 4;
 
-/// The finite difference that a derivative is held against.
+/// Finite difference with which a derivative is compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Difference {
     /// One-sided, of first order; for functions that may only be entered from one side.
@@ -176,13 +176,13 @@ pub fn directional(
     })
 }
 
-/// Whether the deviations tend to nothing, extrapolated to a step of zero as a polynomial in
-/// `h^order`, against the smallest of them.
+/// Returns whether the deviations tend to zero, extrapolated to a step of zero as a polynomial in
+/// `h^order`, relative to the smallest of them.
 ///
-/// Where the first two terms of the error cancel each other at some step, the error passes
-/// through zero there and falls slowly below, although the derivative is right: with
-/// `e = h (1 - h / h_0)` the order between `h_0 / 2` and `h_0 / 4` is .4. The polynomial knows
-/// both terms. What a wrong derivative is wrong by stays in it whole.
+/// If the first two terms of the error cancel at some step, the error passes through zero there and
+/// decreases slowly below, although the derivative is right: with `e = h (1 - h / h_0)` the order
+/// between `h_0 / 2` and `h_0 / 4` is .4. The polynomial includes both terms. The error of a wrong
+/// derivative remains in it entirely.
 fn vanishes(points: &[(f64, DVector<f64>)], order: f64) -> bool {
     let mut limit = DVector::zeros(points[0].1.len());
     for (i, (h, deviation)) in points.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! A friction law and a bulk law of one's own: a herringbone sole of foam on a floor.
+//! A user-defined friction law and bulk law: a herringbone sole of foam on a floor.
 //!
 //! Herringbone grooves turn friction aside: sliding forth is pushed to one side, sliding
 //! back to the other. The foam is the law of Blatz and Ko (1962, doi:10.1122/1.548937) for

@@ -1,4 +1,4 @@
-//! What one should know of a model before it is run.
+//! Advice about a model before it is run.
 //!
 //! ```text
 //! Advice::of(model) -> faults     it cannot be run, or not as it is meant
@@ -7,9 +7,8 @@
 //! ```
 //!
 //! Faults that a model or deck finds itself ([`Validate`](striae_model::Validate),
-//! [`fitted`](striae_model::fitted)) are not repeated. Sizes come from the meshes, and for
-//! models of many nodes the cost is that of a formula, so that a million elements take
-//! seconds.
+//! [`fitted`](striae_model::fitted)) are not repeated. Sizes come from the meshes, and for models
+//! of many nodes the cost is estimated by a formula, so that a million elements take seconds.
 
 mod bending;
 mod cost;
@@ -36,21 +35,21 @@ use striae_contact::initial::Fit;
 use striae_model::Model;
 use striae_solve::initial::fits;
 
-/// What one should know of a model.
+/// Advice about a model.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Advice {
-    /// What makes a run impossible.
+    /// Remarks on what makes a run impossible.
     pub faults: Vec<Remark>,
-    /// What makes results doubtful.
+    /// Remarks on what makes results doubtful.
     pub warnings: Vec<Remark>,
-    /// What is good to know.
+    /// Remarks of general interest.
     pub notes: Vec<Remark>,
 }
 
 /// One thing to know.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Remark {
-    /// What it is about.
+    /// Topic of the remark.
     pub topic: Topic,
     /// Name of the body, pair or step it is about, if it is about one.
     pub name: Option<String>,
@@ -58,7 +57,7 @@ pub struct Remark {
     pub text: String,
 }
 
-/// What remarks are about.
+/// Topic of a remark.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Topic {
     /// Extent, volume and shape of elements.
@@ -69,7 +68,7 @@ pub enum Topic {
     Locking,
     /// Elements too stiff in bending.
     Bending,
-    /// What holds a body.
+    /// Restraint of a body.
     Hold,
     /// Gaps and overlaps at the start.
     Fit,
@@ -88,7 +87,7 @@ pub enum Topic {
 }
 
 impl Topic {
-    /// What files call it.
+    /// Name in files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Shape => "shape",

@@ -1,5 +1,4 @@
-//! What stands beside the results so that they tell what was run: the deck, and what its
-//! friction looks like.
+//! Files beside the results that document the run: the deck, and pictures of its friction.
 //!
 //! ```text
 //! DIR/deck.toml                the deck as it was when the run began

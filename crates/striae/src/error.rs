@@ -1,4 +1,4 @@
-//! Why a simulation could not be made or run.
+//! Errors of simulations.
 
 use striae_deck::Faults;
 use striae_figure::FigureError;
@@ -12,8 +12,8 @@ use striae_meshfile::MeshFileError;
 use striae_output::{OutputError, checkpoint::CheckpointError};
 use striae_solve::{problem::ProblemError, sensitivity::Unlike};
 
-/// Why a simulation could not be made or run. A run that stops for a reason that
-/// physics has is no error, but an ending.
+/// Reason why a simulation could not be made or run. A run that stops for a physical reason is not
+/// an error, but an ending.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// The deck is faulty.
@@ -27,7 +27,7 @@ pub enum Error {
     Problem(#[from] ProblemError),
     /// The machine has not the memory.
     #[error(
-        "{unknowns} unknowns take about {:.1} GB, and {:.1} GB are available; choose `backend = \"iterative\"` where another one is stated, a coarser mesh, or a larger machine",
+        "not enough memory: {unknowns} unknowns take about {:.1} GB, but only {:.1} GB are available; set `backend = \"iterative\"` unless it is set already, or use a coarser mesh or a larger machine",
         needed / 1e9, available / 1e9
     )]
     Memory {
@@ -49,9 +49,9 @@ pub enum Error {
     /// Another rank failed.
     #[error("rank {rank}: {cause}")]
     Elsewhere {
-        /// Which one.
+        /// Number of the rank.
         rank: usize,
-        /// What it says.
+        /// Message of the cause.
         cause: String,
     },
     /// A run cannot be taken up again.

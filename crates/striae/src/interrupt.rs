@@ -5,7 +5,7 @@ use std::sync::{
     atomic::{AtomicBool, Ordering},
 };
 
-/// A flag that stops the runs that watch it after the increment under way. Clones share it.
+/// A flag that stops the runs that watch it after their current increment. Clones share it.
 #[derive(Clone, Debug, Default)]
 pub struct Interrupt(Arc<AtomicBool>);
 
@@ -19,13 +19,13 @@ impl Interrupt {
         }
     }
 
-    /// Whether the runs are to stop.
+    /// Returns whether the runs are to stop.
     pub fn is_set(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 }
 
-/// What a flag was before it was set.
+/// State of a flag before it was set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Before {
     /// Not set.

@@ -68,7 +68,7 @@
 //!
 //! # Watching a run
 //!
-//! An [`Observer`] is told of every iteration and increment, and may stop the run. An
+//! An [`Observer`] is notified of every iteration and increment, and may stop the run. An
 //! [`Interrupt`] stops it from another thread.
 //!
 //! ```
@@ -170,11 +170,10 @@
 //!
 //! # Files
 //!
-//! A run writes files only where it is told to: [`recorded`](Simulation::recorded)
-//! writes fields for ParaView, the history and a summary,
-//! [`resumable`](Simulation::resumable) also checkpoints.
-//! [`Simulation::open`] runs a deck as the program does, [`Simulation::resume`] goes on
-//! after an interruption, to the same results to the last bit.
+//! A run writes files only on request: [`recorded`](Simulation::recorded) writes fields for
+//! ParaView, the history and a summary, [`resumable`](Simulation::resumable) also checkpoints.
+//! [`Simulation::open`] runs a deck as the program does, [`Simulation::resume`] goes on after an
+//! interruption, to the same results to the last bit.
 //!
 //! ```no_run
 //! # use striae::prelude::*;

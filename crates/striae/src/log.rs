@@ -1,4 +1,4 @@
-//! What a run leaves behind: files and checkpoints, or values in memory only.
+//! Output of a run: files and checkpoints, or values in memory only.
 
 use std::{path::PathBuf, time::Instant};
 
@@ -19,7 +19,7 @@ use striae_solve::{
     state::State,
 };
 
-/// Where a run is written, and whether it can be resumed from there.
+/// Target of a recorded run, and whether it can be resumed from there.
 #[derive(Clone, Debug)]
 pub(crate) struct Recording {
     /// Folder of the output.
@@ -28,7 +28,7 @@ pub(crate) struct Recording {
     pub(crate) case: String,
     /// The deck, for checkpoints; without it there are none.
     pub(crate) source: Option<Source>,
-    /// What becomes of results that are there.
+    /// Treatment of existing results.
     pub(crate) existing: Existing,
 }
 
@@ -81,7 +81,7 @@ impl Log {
         })))
     }
 
-    /// The log of a run that goes on.
+    /// The log of a run that is resumed.
     pub(crate) fn resumed(
         share: &Share,
         recording: Recording,
@@ -117,7 +117,7 @@ impl Log {
         }
     }
 
-    /// Whether a checkpoint is due.
+    /// Returns whether a checkpoint is due.
     pub(crate) fn keeps(&self, increment: usize) -> bool {
         match self {
             Self::Memory(_) => false,
@@ -177,8 +177,8 @@ impl Log {
         Ok(())
     }
 
-    /// Writes the checkpoint of the end of a run, from which it can go on with other
-    /// steps, where there are any.
+    /// Writes the checkpoint of the end of a run, from which it can continue with other steps, if
+    /// there are any.
     pub(crate) fn end(
         &self,
         problem: &Problem,

@@ -47,7 +47,7 @@ pub enum AngleFrom {
     Along,
 }
 
-/// How a file of measurements is laid out.
+/// Layout of a file of measurements.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Form {
     /// Direction that angles count from.
@@ -83,7 +83,7 @@ impl FromStr for NamedColumn {
                 column: column.trim().to_owned(),
             }),
             None => Err(format!(
-                "unknown quantity `{quantity}`; there are {}",
+                "unknown quantity `{quantity}`; known quantities are {}",
                 COLUMNS.join(", ")
             )),
         }
@@ -102,7 +102,7 @@ pub struct Measured {
 /// All that is wrong with a file of measurements.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub struct MeasurementFaults {
-    /// What the file is called.
+    /// Name of the file.
     pub file: String,
     /// The faults, by place.
     pub faults: Vec<MeasurementFault>,
@@ -113,12 +113,12 @@ pub struct MeasurementFaults {
 pub struct MeasurementFault {
     /// Line and column of the text, from 1; `None` where the whole file is meant.
     pub place: Option<(usize, usize)>,
-    /// What was found and what is needed.
+    /// Message: what was found and what is needed.
     pub message: String,
 }
 
 impl MeasurementFaults {
-    /// That a file cannot be read.
+    /// Fault of a file that cannot be read.
     pub fn unreadable(file: &str, cause: &impl fmt::Display) -> Self {
         Self {
             file: file.to_owned(),
@@ -181,8 +181,7 @@ fn measured(text: &str, form: &Form, faults: &mut Vec<MeasurementFault>) -> Opti
         .filter(|(_, line)| !line.trim().is_empty())
         .peekable();
     let Some(&(number, first)) = lines.peek() else {
-        let message = "it is empty: a line with names of columns is needed, such as \
-                       `angle, friction`, and a line for each reading";
+        let message = "it is empty: it must have a line with names of columns, such as `angle, friction`, and a line for each reading";
         faults.push(fault(None, message));
         return None;
     };
@@ -234,10 +233,7 @@ mod tests {
         let text = "angle, friction, spread\n0, 0.3, 1\n30, much, 0\n60, 0.2\n90, inf, 1\n";
         assert_eq!(
             parse(text, "m.csv").unwrap_err().to_string(),
-            "m.csv:3:5: `much` is no finite number for `friction`\n\
-             m.csv:3:11: `0` is no positive number for `spread`\n\
-             m.csv:4:1: fields: 2, but columns: 3; each needs one\n\
-             m.csv:5:5: `inf` is no finite number for `friction`"
+            "m.csv:3:5: `much` is not a finite number for `friction`\nm.csv:3:11: `0` is not a positive number for `spread`\nm.csv:4:1: fields: 2, but columns: 3; each needs one\nm.csv:5:5: `inf` is not a finite number for `friction`"
         );
         for (text, message) in [
             ("", "it is empty"),
@@ -251,13 +247,13 @@ mod tests {
                 "angle,tangental,normal\n0,1,1\n",
                 "unknown column `tangental`; did you mean `tangential`?",
             ),
-            ("angle,angle,friction\n", "column `angle` is there twice"),
+            ("angle,angle,friction\n", "column `angle` appears twice"),
             ("friction\n1\n", "a column `angle` is needed"),
             ("angle,normal\n1,1\n", "a column `friction` is needed, or"),
             ("angle,friction,normal\n1,1,1\n", "not both"),
             (
                 "angle,tangential,normal\n1,1,-1\n",
-                "m.csv:2:5: `-1` is no positive number",
+                "m.csv:2:5: `-1` is not a positive number",
             ),
         ] {
             let told = parse(text, "m.csv").unwrap_err().to_string();
@@ -279,10 +275,7 @@ mod tests {
         let expected = [(0.0, 0.2), (90f64.to_radians(), 0.4)];
         let expected = expected.map(|(slip, friction)| Reading::against(slip, friction));
         assert_eq!(measured.readings, expected);
-        assert_eq!(
-            measured.notes,
-            ["columns that are not used: `Test`, `Temp`"]
-        );
+        assert_eq!(measured.notes, ["unused columns: `Test`, `Temp`"]);
         let bare = read(
             "0\t0.2\n90\t0.4\n",
             "m.csv",
@@ -300,7 +293,7 @@ mod tests {
         };
         let told = read(text, "m.csv", &missing).unwrap_err().to_string();
         assert!(
-            told.contains("m.csv:2:1: there is no column `Fy`; there are `Test`"),
+            told.contains("m.csv:2:1: unknown column `Fy`; there are `Test`"),
             "{told}"
         );
     }

@@ -28,19 +28,19 @@ pub trait Observer {
 /// An observer that ignores everything.
 impl Observer for () {}
 
-/// Whether a run goes on.
+/// Decision whether a run continues.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Next {
-    /// It does.
+    /// The run continues.
     Continue,
-    /// It ends after this increment, as if it had been interrupted.
+    /// The run ends after this increment, as if it had been interrupted.
     Stop,
 }
 
 /// A converged increment.
 #[derive(Clone, Copy, Debug)]
 pub struct Converged<'a> {
-    /// Where the run is.
+    /// Position of the run.
     pub progress: Progress,
     /// Iterations, and what the linear systems took.
     pub increment: &'a Increment,

@@ -1,4 +1,4 @@
-//! What most programs need: `use striae::prelude::*;`.
+//! Items that most programs need: `use striae::prelude::*;`.
 
 pub use crate::{
     Converged, Error, Finished, Interrupt, Next, Observer, PairSide, Results, Simulation,

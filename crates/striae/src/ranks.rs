@@ -15,7 +15,7 @@ pub trait Ranks: Debug + Send + Sync {
     fn solver(&self, backend: Backend) -> Box<dyn SharedSolver>;
 }
 
-/// What this rank has come to, or what failed on another rank, the lowest one; collective.
+/// Result of this rank, or the failure of another rank, the lowest one; collective.
 pub(crate) fn agreed<T>(ranks: Option<&Arc<dyn Ranks>>, own: Result<T, Error>) -> Result<T, Error> {
     let Some(ranks) = ranks else {
         return own;

@@ -118,7 +118,7 @@ pub fn step(value: f64) -> f64 {
     (value + wanted) - value
 }
 
-/// The neighbours of a run, and what is taken down of them.
+/// Neighbours of a run and the tables of its derivatives.
 pub(crate) struct Followed {
     sensitivities: Sensitivities,
     tables: Vec<Table>,
@@ -185,7 +185,7 @@ impl Followed {
         Ok(())
     }
 
-    /// What makes the derivatives doubtful.
+    /// Reasons to distrust the derivatives.
     pub(crate) fn warnings(&self) -> Vec<WarningSummary> {
         let neighbours = self.sensitivities.neighbours();
         let ended = self.ended.iter().map(|(time, reason)| WarningSummary {

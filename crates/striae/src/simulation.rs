@@ -71,16 +71,16 @@ pub struct Simulation {
     parameters: Vec<Parameter>,
 }
 
-/// Where a run begins.
+/// Start of a run.
 #[derive(Clone, Debug)]
 enum Begun {
     /// At rest.
     Undeformed,
     /// After so many steps and increments of an earlier run, in the state it came to.
     After(Box<(usize, usize, State)>),
-    /// Where a run was stopped, in files of its own.
+    /// Point at which a run was stopped, in files of its own.
     Within(Box<Point>),
-    /// Where a recorded run was stopped.
+    /// Point at which a recorded run was stopped.
     Stopped(Box<(Written, Point)>),
 }
 
@@ -95,9 +95,9 @@ pub struct Finished {
     pub steps: Vec<State>,
     /// Increments since the undeformed state.
     pub increments: usize,
-    /// How the run ended.
+    /// Ending of the run.
     pub ending: Ending,
-    /// What `summary.json` says: counts, resultants, warnings.
+    /// Content of `summary.json`: counts, resultants, warnings.
     pub summary: Summary,
     /// A row an increment: resultants, reactions, motions, energies.
     pub history: Table,
@@ -207,11 +207,11 @@ impl Simulation {
         Ok(simulation.recorded(folder, case).with_source(source))
     }
 
-    /// The same on several ranks, each of which reads the deck; collective. Results of the
-    /// run are those of what this rank holds, history and summary those of the whole.
+    /// Opens the deck on several ranks, each of which reads it; collective. Results of the run are
+    /// those of the part this rank holds, history and summary those of the whole.
     ///
     /// # Errors
-    /// As [`Self::open`], on all ranks.
+    /// Returns the errors of [`Self::open`], on all ranks.
     pub fn open_on(
         ranks: Arc<dyn Ranks>,
         deck: &Path,
@@ -240,8 +240,8 @@ impl Simulation {
         Ok(simulation.stopped_at(checkpoint, folder))
     }
 
-    /// Goes on with a run from the checkpoint in its folder, to the same results to
-    /// the last bit. Its deck is read again and must not have changed.
+    /// Resumes a run from the checkpoint in its folder, with results identical to the last bit. Its
+    /// deck is read again and must not have changed.
     ///
     /// # Errors
     /// When there is no checkpoint, or when it does not fit the deck or the output.
@@ -251,7 +251,7 @@ impl Simulation {
         Self::resume_from(deck, checkpoint, folder)
     }
 
-    /// Goes on from a checkpoint with a deck that is at hand.
+    /// Resumes from a checkpoint with a given deck.
     ///
     /// # Errors
     /// When the deck is not that of the checkpoint.
@@ -266,7 +266,7 @@ impl Simulation {
         Ok(simulation.stopped_at(checkpoint, folder))
     }
 
-    /// A run that goes on from a checkpoint that fits it.
+    /// A run that resumes from a checkpoint that fits it.
     fn stopped_at(mut self, checkpoint: Checkpoint, folder: &Path) -> Self {
         let Checkpoint {
             source,
@@ -283,8 +283,8 @@ impl Simulation {
         self
     }
 
-    /// Goes on from the end of a completed run with further steps. Times and numbers of
-    /// steps and increments go on; history and summary are those of the further steps.
+    /// Continues from the end of a completed run with further steps. Times and numbers of steps and
+    /// increments continue; history and summary are those of the further steps.
     ///
     /// # Errors
     /// When the earlier run was stopped before its end, all faults of the further steps,
@@ -300,7 +300,7 @@ impl Simulation {
         Ok(simulation)
     }
 
-    /// What is written and how often, if the run is recorded.
+    /// Sets what is written and how often, if the run is recorded.
     pub fn writing(mut self, output: Output) -> Self {
         self.output = output;
         self
@@ -336,8 +336,8 @@ impl Simulation {
         self
     }
 
-    /// What becomes of results that are in the folder already; without a word they stay,
-    /// and the run does not begin.
+    /// Sets the treatment of results that are in the folder already; by default they are kept and
+    /// the run does not begin.
     pub fn over(mut self, existing: Existing) -> Self {
         if let Some(recording) = &mut self.recording {
             recording.existing = existing;
@@ -490,7 +490,7 @@ fn is_first(problem: &Problem, point: &Point) -> bool {
         && point.size == first_increment(&problem.model, 0)
 }
 
-/// The record of a run that begins or goes on.
+/// The record of a run that starts or resumes.
 fn log(
     problem: &Problem,
     output: Output,
@@ -511,7 +511,7 @@ fn log(
     Ok(log)
 }
 
-/// What a checkpoint knows of a deck.
+/// Record of the deck in a checkpoint.
 fn source(
     case: String,
     (deck, settings): (&Path, &[Setting]),

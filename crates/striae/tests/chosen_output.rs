@@ -238,7 +238,7 @@ fn reactions_are_those_of_sets_that_something_holds() {
     assert!(history.column("reaction.floor.z").is_some());
 }
 
-/// What a cut transmits is what acts beyond it, whatever the elements that it goes through.
+/// A cut transmits the loads beyond it, through any kind of elements.
 #[test]
 fn cuts_transmit_what_acts_beyond_them() {
     for cells in ["hexahedra", "wedges", "pyramids", "tetrahedra"] {
@@ -327,7 +327,7 @@ fn what_is_not_there_is_refused_where_it_is_written() {
         (
             "[2.4, 3.3, 0.7]",
             "[0, 0, 0]",
-            "probe `middle` is nowhere: (0, 0, 0) is outside",
+            "probe `middle` cannot be placed: (0, 0, 0) is outside",
         ),
         (
             r#"nodes = "zmax" },

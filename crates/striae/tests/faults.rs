@@ -324,7 +324,7 @@ fn what_only_a_model_can_say_is_judged_too() {
             "rigid_surfaces[0].shape: the normal of a plane must not be the zero vector",
             "pairs[0].search_distance: the search distance of pair `sole` must be a positive number, but is 0",
             "steps[0].duration: the duration of step `press` must be a positive number, but is NaN",
-            "steps[0].displacements[0].curve: the points of curve `steps[0].displacements[0].curve` must rise in their first number from 0 to 1, but end at 0.5",
+            "steps[0].displacements[0].curve: the first numbers of the points of curve `steps[0].displacements[0].curve` must ascend from 0 to 1, but end at 0.5",
         ]
     );
     let twice = after(|model| model.steps.push(model.steps[0].clone()));

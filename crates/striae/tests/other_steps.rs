@@ -1,4 +1,4 @@
-//! Runs that go on from a checkpoint with the steps of another deck.
+//! Runs that continue from a checkpoint with the steps of another deck.
 
 use std::{fs, path::Path};
 
@@ -191,12 +191,12 @@ fn what_differs_is_named() {
         ),
         (
             format!("{PARTS}{}{DRAW}{TURN}", PRESS.replace("-0.02", "-0.03")),
-            "step `press` is done",
+            "step `press` is completed",
         ),
-        (format!("{PARTS}{PRESS}{TURN}"), "step `draw` is done"),
+        (format!("{PARTS}{PRESS}{TURN}"), "step `draw` is completed"),
         (
             format!("{PARTS}{PRESS}{DRAW}"),
-            "no step after those that are done",
+            "no step after the completed ones",
         ),
     ] {
         let deck = folder.join("new.toml");

@@ -6,7 +6,7 @@ use striae::{
     prelude::*,
 };
 
-/// How far the floor goes and turns.
+/// Displacement and rotation of the floor.
 const SHIFT: f64 = 0.1;
 const TURN: f64 = 0.3;
 

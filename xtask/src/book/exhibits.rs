@@ -1,4 +1,4 @@
-//! What the gallery shows of each case.
+//! Exhibits of the gallery, one for each case.
 
 /// A case in the gallery.
 pub struct Exhibit {
@@ -10,7 +10,7 @@ pub struct Exhibit {
     pub options: &'static [&'static str],
     /// A figure of the case.
     pub figure: Option<&'static str>,
-    /// What is seen.
+    /// Caption of the picture.
     pub caption: &'static str,
 }
 

@@ -1,5 +1,5 @@
-//! The gallery: every case with a picture of its run, a figure, and what came out beside
-//! what is known.
+//! The gallery: every case with a picture of its run, a figure, and its results beside known
+//! values.
 //!
 //! ```text
 //! striae reproduce CASE -> results -> striae picture -> docs/book/gallery/CASE.png
@@ -8,7 +8,7 @@
 //! kept CSV of all cases -> docs/book/gallery/README.md
 //! ```
 //!
-//! What is made is kept in the repository, so the book has all pictures without a run.
+//! The gallery is kept in the repository, so the book has all pictures without a run.
 
 use std::{
     fs,
@@ -22,19 +22,19 @@ use super::{
 };
 use crate::fault::Fault;
 
-/// Where the gallery is.
+/// Folder of the gallery.
 const FOLDER: &str = "docs/book/gallery";
 
-/// Where readers find the cases; the book does not hold them.
+/// Address of the cases for readers; the book does not contain them.
 const CASES: &str = "https://github.com/striae/striae/tree/main/cases";
 
 /// Quantities of a case that are shown; the others are in the file.
 const SHOWN: usize = 8;
 
-/// How much of the cases is run.
+/// Part of the cases that is run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extent {
-    /// What `striae reproduce --quick` runs.
+    /// Cases as `striae reproduce --quick` runs them.
     Quick,
     /// Everything, for hours.
     All,
@@ -120,7 +120,7 @@ fn section(exhibit: &Exhibit) -> Result<String, Fault> {
     Ok(text)
 }
 
-/// What was computed beside what is known, from the table of a case.
+/// Computed values beside known ones, from the table of a case.
 fn values(exhibit: &Exhibit, table: &str) -> Result<String, Fault> {
     let case = exhibit.case;
     let rows: Vec<Vec<String>> = table.lines().skip(1).map(cells).collect();
@@ -167,7 +167,7 @@ fn cells(line: &str) -> Vec<String> {
     cells
 }
 
-/// What a value may be, in words.
+/// Range of a value, in words.
 fn range(least: &str, largest: &str) -> String {
     match (least, largest) {
         ("-inf", most) => format!("at most {}", round(most)),

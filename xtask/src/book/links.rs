@@ -58,7 +58,7 @@ pub fn breaches(root: &Path) -> Result<Vec<Breach>, Fault> {
     Ok(breaches)
 }
 
-/// What is wrong with a link of a file.
+/// Fault of a link of a file.
 fn leads_nowhere(
     root: &Path,
     file: &Path,

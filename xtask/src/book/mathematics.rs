@@ -59,7 +59,7 @@ fn chapters(value: &mut Value, writer: &Formulas) -> Result<(), Fault> {
     }
 }
 
-/// What makes MathML.
+/// Converter of formulas to MathML.
 pub struct Formulas(LatexToMathML);
 
 impl Formulas {
@@ -129,7 +129,7 @@ fn formulas(page: &str) -> Vec<(Range<usize>, String, MathDisplay)> {
     found
 }
 
-/// What pages of the book may hold.
+/// Extensions of Markdown that pages of the book may use.
 pub fn options() -> Options {
     Options::ENABLE_MATH | Options::ENABLE_TABLES
 }

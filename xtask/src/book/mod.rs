@@ -29,16 +29,16 @@ use gallery::Extent;
 /// The version of mdBook.
 const MDBOOK: &str = "0.5.4";
 
-/// Where programs are installed.
+/// Folder in which programs are installed.
 const TOOLS: &str = "target/tools";
 
-/// Where the book is built; `docs/book.toml` says so.
+/// Folder in which the book is built; `docs/book.toml` names it.
 const BUILT: &str = "target/book";
 
-/// What mdBook takes for the command of `docs/book.toml` that makes formulas.
+/// Variable from which mdBook takes the command of `docs/book.toml` that makes formulas.
 const PREPROCESSOR: &str = "MDBOOK_PREPROCESSOR__MATHEMATICS__COMMAND";
 
-/// Where cases are run for the gallery.
+/// Folder in which cases are run for the gallery.
 const RESULTS: &str = "target/gallery";
 
 /// Builds the book.

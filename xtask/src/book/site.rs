@@ -1,5 +1,5 @@
-//! The book as it was built: every link of a page has to lead to a file or a place that is
-//! there, and no page may ask for anything from a network.
+//! The book as it was built: every link of a page must lead to an existing file or place, and no
+//! page may load anything from a network.
 
 use std::{
     collections::{HashMap, HashSet},
@@ -12,10 +12,10 @@ use crate::{breach::Breach, fault::Fault};
 /// Pages that mdBook makes for itself, relative to the root of a server.
 const OWN: [&str; 2] = ["404.html", "toc.html"];
 
-/// What is wrong with the pages of a folder.
+/// Breaches in the pages of a folder.
 ///
 /// # Errors
-/// When a page cannot be read.
+/// If a page cannot be read.
 pub fn breaches(folder: &Path) -> Result<Vec<Breach>, Fault> {
     let mut pages = HashMap::new();
     let mut folders = vec![folder.to_owned()];
@@ -58,7 +58,7 @@ pub fn breaches(folder: &Path) -> Result<Vec<Breach>, Fault> {
     Ok(wrong)
 }
 
-/// What is wrong with a link of a page.
+/// Fault of a link of a page.
 fn leads_nowhere(
     page: &Path,
     tag: &str,

@@ -1,14 +1,13 @@
-//! Which crate may depend on which.
+//! Dependencies that crates may have on each other.
 //!
-//! The table is the ladder of `ARCHITECTURE.md`: a crate knows only what stands
-//! in its row. Tests may use more. [`VERIFICATION`] serves tests and the published
-//! cases, nothing else.
+//! The table is the ladder of `ARCHITECTURE.md`: a crate may use only those in its row. Tests may
+//! use more. [`VERIFICATION`] serves tests and the published cases, nothing else.
 
 use crate::breach::Breach;
 
 use super::metadata::{Kind, Package};
 
-/// What a crate may depend on.
+/// Dependencies that a crate may have.
 struct Row {
     name: &'static str,
     own: &'static [&'static str],

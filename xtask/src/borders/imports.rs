@@ -1,8 +1,8 @@
-//! What a source file takes from other files: its `use` items and paths.
+//! Imports of a source file from other files: its `use` items and paths.
 
 use super::text::product_lines;
 
-/// What a file uses and re-exports.
+/// Imports and re-exports of a file.
 pub struct Imports {
     items: Vec<Item>,
     paths: Vec<Used>,
@@ -11,7 +11,7 @@ pub struct Imports {
 /// A name that a file takes from elsewhere.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Used {
-    /// Where it leads.
+    /// Path that it leads to.
     pub path: Vec<String>,
     /// Line, from 1.
     pub line: usize,
@@ -22,7 +22,7 @@ struct Item {
     used: Used,
     /// The name it has here.
     name: String,
-    /// Whether the file's own code names it.
+    /// `true` if the file's own code names it.
     is_own: bool,
 }
 
@@ -68,14 +68,14 @@ impl Imports {
         items.map(|item| &item.used).chain(&self.paths)
     }
 
-    /// Where a name leads that the file has from elsewhere.
+    /// Path of a name that the file has from elsewhere.
     pub fn exported(&self, name: &str) -> Option<&[String]> {
         let item = self.items.iter().find(|item| item.name == name)?;
         Some(&item.used.path)
     }
 }
 
-/// What follows `use`, and whether the names are passed on.
+/// Tree that follows `use`, and whether the names are re-exported.
 fn use_tree(line: &str) -> Option<(bool, &str)> {
     let line = line.trim_start();
     if let Some(tree) = line.strip_prefix("use ") {

@@ -21,7 +21,7 @@ pub struct Package {
     pub name: String,
     /// Its folder.
     pub folder: PathBuf,
-    /// What its manifest lists.
+    /// Dependencies listed in its manifest.
     pub dependencies: Vec<Dependency>,
 }
 
@@ -30,11 +30,11 @@ pub struct Package {
 pub struct Dependency {
     /// Name of the crate.
     pub name: String,
-    /// What needs it.
+    /// Target that needs it.
     pub kind: Kind,
 }
 
-/// What needs a dependency.
+/// Target that needs a dependency.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// The library, the program or the build script.

@@ -1,15 +1,17 @@
-//! Borders between the crates: what each part must not know.
+//! Borders between the crates: the knowledge that each part must not have.
 //!
 //! [`dependencies`] compares the manifests, as `cargo metadata` reports them,
 //! with the table of what each crate may depend on; [`source`] reads the text of
 //! every source file for what a dependency cannot tell: files touched outside
 //! the crates of input and output, output below the program, unsafe code, files
-//! that are too long; [`circles`] follows the imports between the files of a crate.
+//! that are too long; [`circles`] follows the imports between the files of a crate;
+//! [`openings`] reads how doc comments begin, in Rust and Python.
 
 mod circles;
 mod dependencies;
 mod imports;
 mod metadata;
+mod openings;
 mod source;
 mod text;
 
@@ -31,7 +33,8 @@ pub fn check() -> Result<(), Fault> {
     let mut breaches = dependencies::breaches(&workspace.packages);
     let mut count = 0;
     for package in &workspace.packages {
-        let files = sources(&package.folder)?;
+        let files = sources(&package.folder, &["rs"])?;
+        let python = sources(&package.folder, &["py", "pyi"])?;
         let tests: HashSet<PathBuf> = files
             .iter()
             .flat_map(|(path, text)| text::test_files(path, text))
@@ -39,6 +42,7 @@ pub fn check() -> Result<(), Fault> {
         let within = |path| Path::strip_prefix(path, &workspace.root).unwrap_or(path);
         for (path, text) in &files {
             let within = within(path);
+            breaches.extend(openings::breaches(within, text));
             let code = if tests.contains(path) {
                 Code::Test
             } else {
@@ -48,6 +52,9 @@ pub fn check() -> Result<(), Fault> {
                 &Place::new(&package.name, within, code),
                 text,
             ));
+        }
+        for (path, text) in &python {
+            breaches.extend(openings::breaches(within(path), text));
         }
         let product: Vec<(PathBuf, &str)> = files
             .iter()
@@ -66,30 +73,34 @@ pub fn check() -> Result<(), Fault> {
     }
 }
 
-/// Path and text of all Rust files below a folder.
-fn sources(folder: &Path) -> Result<Vec<(PathBuf, String)>, Fault> {
+/// Path and text of all files below a folder with one of the extensions.
+fn sources(folder: &Path, extensions: &[&str]) -> Result<Vec<(PathBuf, String)>, Fault> {
     let read = |path: PathBuf| match fs::read_to_string(&path) {
         Ok(text) => Ok((path, text)),
         Err(cause) => Err(Fault::Unreadable { path, cause }),
     };
-    rust_files(folder)?.into_iter().map(read).collect()
+    files(folder, extensions)?.into_iter().map(read).collect()
 }
 
-/// All Rust files below a folder, sorted by path.
-fn rust_files(folder: &Path) -> Result<Vec<PathBuf>, Fault> {
+/// All files below a folder with one of the extensions, sorted by path.
+fn files(folder: &Path, extensions: &[&str]) -> Result<Vec<PathBuf>, Fault> {
     let unreadable = |cause| Fault::Unreadable {
         path: folder.to_owned(),
         cause,
     };
-    let mut files = Vec::new();
+    let is_wanted = |path: &Path| {
+        let own = path.extension().and_then(|extension| extension.to_str());
+        own.is_some_and(|own| extensions.contains(&own))
+    };
+    let mut found = Vec::new();
     for entry in fs::read_dir(folder).map_err(unreadable)? {
         let path = entry.map_err(unreadable)?.path();
         if path.is_dir() {
-            files.extend(rust_files(&path)?);
-        } else if path.extension().is_some_and(|extension| extension == "rs") {
-            files.push(path);
+            found.extend(files(&path, extensions)?);
+        } else if is_wanted(&path) {
+            found.push(path);
         }
     }
-    files.sort();
-    Ok(files)
+    found.sort();
+    Ok(found)
 }

@@ -14,16 +14,16 @@ use std::path::{Component, Path};
 use super::text::product_lines;
 use crate::breach::Breach;
 
-/// Where a source file stands.
+/// Place of a source file in the workspace.
 pub struct Place {
     path: String,
     layer: Layer,
     code: Code,
-    /// Whether its crate knows nothing of what it serves here.
+    /// `true` if its crate is general and must not name what it serves here.
     is_general: bool,
 }
 
-/// What a crate may do with the world outside.
+/// Access of a crate to the outside world.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Layer {
     /// Neither touches files nor prints.
@@ -34,7 +34,7 @@ enum Layer {
     Program,
 }
 
-/// What a file is for.
+/// Purpose of a file.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Code {
     /// The library or the program.
@@ -69,7 +69,7 @@ impl Place {
 }
 
 impl Code {
-    /// What a file in the folder `tests` or the like is for, or of the crate for tests.
+    /// Purpose of a file, from its folder (`tests` or the like) or its crate.
     pub fn of(package: &str, path: &Path) -> Self {
         const FOLDERS: [&str; 3] = ["tests", "examples", "benches"];
         let in_folder = |component: Component| {

@@ -1,6 +1,6 @@
 //! Chromium without a window, driven over pipes.
 //!
-//! It reads messages from its file 3 and writes them to its file 4; a shell joins these to
+//! The browser reads messages from its file 3 and writes them to its file 4; a shell joins these to
 //! named pipes. Source: <https://chromedevtools.github.io/devtools-protocol/>.
 
 use std::{
@@ -17,10 +17,10 @@ use serde_json::{Value, json};
 
 use crate::fault::Fault;
 
-/// How long an answer may take.
+/// Time allowed for an answer.
 const PATIENCE: Duration = Duration::from_secs(40);
 
-/// What is run if `CHROMIUM` names nothing else.
+/// Program that is run unless `CHROMIUM` names another.
 const PROGRAM: &str = "chromium";
 
 /// A browser with one page.
@@ -165,7 +165,7 @@ impl Chromium {
         Ok(())
     }
 
-    /// What the page did since it was last asked.
+    /// Events of the page since the last call.
     pub fn events(&mut self) -> Vec<Value> {
         std::mem::take(&mut self.events)
     }

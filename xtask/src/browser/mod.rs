@@ -1,13 +1,13 @@
 //! `cargo xtask report-test`: reports in a real browser.
 //!
-//! It runs small decks with the program, makes their reports, opens them from disk in
-//! headless Chromium and uses them as a person would: no error on the console, no request
-//! but for the page itself, a picture that is not blank, slider, field, arrows and cut that
-//! change it, and a legend with the extremes of the VTU files. Pictures are kept in
+//! Runs small decks with the program, makes their reports, opens them from disk in headless
+//! Chromium and uses them as a person would: checks that there is no error on the console, no
+//! request other than for the page itself, a picture that is not blank, slider, field, arrows and
+//! cut that change it, and a legend with the extremes of the VTU files. Pictures are kept in
 //! `target/report` to be looked at.
 //!
-//! Chromium is Debian's package `chromium`, or what `CHROMIUM` names; `.ci/run` installs it.
-//! It is driven by its protocol over pipes: messages in JSON, ended by a zero byte.
+//! Chromium is Debian's package `chromium`, or what `CHROMIUM` names; `.ci/run` installs it. The
+//! browser is driven by its protocol over pipes: messages in JSON, ended by a zero byte.
 
 mod chromium;
 mod picture;

@@ -116,7 +116,7 @@ impl Trial<'_> {
         Err(Fault::Browser("nothing was drawn in 30 s".into()))
     }
 
-    /// Sets a control as a person does, and looks at what comes of it.
+    /// Sets a control as a person does, and checks the effect.
     fn after(&mut self, id: &str, value: &str, event: &str, name: &str) -> Result<Picture, Fault> {
         let drawn = self.wait(0)?;
         let expression = format!(

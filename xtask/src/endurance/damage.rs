@@ -1,9 +1,9 @@
-//! How files of a run are damaged.
+//! Damage to files of a run.
 
 /// A file with a fault, and what `resume` has to say of it.
 pub type Damage = (&'static str, fn(&[u8]) -> Vec<u8>, &'static str);
 
-/// What is damaged, one at a time.
+/// Damages, applied one at a time.
 pub const DAMAGES: [Damage; 6] = [
     ("history.csv", first_half, "history.csv"),
     ("history.csv", with_another_digit, "history.csv"),

@@ -1,4 +1,4 @@
-//! What a results folder holds: names and bytes, and whether they are whole.
+//! Content of a results folder: names and bytes, and whether files are complete.
 
 use std::{
     collections::BTreeMap,
@@ -8,7 +8,7 @@ use std::{
 
 use serde_json::Value;
 
-/// Whether an entry of `summary.json` is never the same twice.
+/// Returns whether an entry of `summary.json` differs from run to run.
 fn is_own(name: &str) -> bool {
     name.ends_with("_s") || name == "peak_rss_mib"
 }
@@ -67,8 +67,8 @@ pub fn differences(
     missing.chain(wrong).collect()
 }
 
-/// What is broken in the folder of a run that was killed: each file that a collection names
-/// has to be there and to have its end, and so has each row of the history but the last.
+/// Broken files in the folder of a run that was killed: each file that a collection names must
+/// exist and be complete, and so must each row of the history except the last.
 pub fn broken(files: &BTreeMap<PathBuf, Vec<u8>>) -> Vec<String> {
     let mut broken = Vec::new();
     for (name, bytes) in files {

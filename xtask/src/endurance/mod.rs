@@ -12,9 +12,9 @@
 //! "The same files" are all names in the folder and all bytes, but for the wall time and
 //! the memory in `summary.json`. Moments are spread evenly over the time that a run takes.
 //!
-//! Options: `--binary PATH` (another program), `--kills N`, `--terms N`. It takes some
-//! minutes. Unix only, as it sends signals; a full disk needs the right to mount one, and
-//! is passed over where there is none.
+//! Options: `--binary PATH` (another program), `--kills N`, `--terms N`. It takes some minutes.
+//! Unix only, as it sends signals; a full disk needs the right to mount one, and is skipped without
+//! that right.
 
 mod damage;
 pub mod disk;
@@ -26,7 +26,7 @@ use std::{fs, path::PathBuf, time::Instant};
 use crate::{cargo, fault::Fault};
 use trials::Trials;
 
-/// What is tried, and how often.
+/// Trials to make, and how many.
 struct Options {
     binary: Option<PathBuf>,
     kills: u32,

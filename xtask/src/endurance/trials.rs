@@ -245,10 +245,10 @@ impl Trials {
         Ok(())
     }
 
-    /// What came out.
+    /// Verdict on all trials.
     ///
     /// # Errors
-    /// All that was wrong.
+    /// Returns all failures.
     pub fn verdict(self) -> Result<(), Fault> {
         match self.faults.len() {
             0 => Ok(()),
@@ -268,7 +268,7 @@ impl Trials {
         command
     }
 
-    /// The same with its progress.
+    /// Command that prints its progress.
     fn loud(&self, name: &str, folder: &Path) -> Command {
         let mut command = Command::new(&self.program);
         command
@@ -287,8 +287,8 @@ impl Trials {
             .mul_f64((f64::from(number) + 0.5) / f64::from(count))
     }
 
-    /// Goes on from a checkpoint, or begins anew where there is none and the run has not
-    /// ended; then compares all files and removes the folder.
+    /// Resumes from a checkpoint, or starts again if there is none and the run has not ended; then
+    /// compares all files and removes the folder.
     fn brought_to_its_end(&mut self, folder: &Path) -> Result<(), Fault> {
         let mut command = match folder.join("checkpoint.bin").exists() {
             true => self.command("resume", folder),

@@ -1,4 +1,4 @@
-//! Published cases on one to four ranks, held against the same decks on one process.
+//! Published cases on one to four ranks, compared with the same decks on one process.
 //!
 //! The one process solves with the multifrontal LU: the default solver corrects contact alone
 //! between iterations, which ranks do not, and would need fewer of them.
@@ -40,10 +40,10 @@ const CASES: [Case; 6] = [
         is_long: true,
     },
 ];
-/// Which cases are run.
+/// Cases that are run.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Extent {
-    /// Those that take seconds.
+    /// Cases that take seconds.
     Short,
     /// All.
     All,
@@ -133,7 +133,7 @@ impl Case {
         History::read(&path).map_err(|words| Fault::Mpi(format!("{}: {words}", path.display())))
     }
 
-    /// Where its runs go.
+    /// Folder of its runs.
     fn folder(&self) -> PathBuf {
         Path::new("target/mpi").join(self.deck)
     }

@@ -1,4 +1,4 @@
-//! How much two histories differ.
+//! Differences between two histories.
 
 use std::fmt;
 
@@ -9,7 +9,7 @@ pub const FORCES: f64 = 1e-8;
 /// Largest difference of the iterations of an increment that is none.
 pub const ITERATIONS: f64 = 1.0;
 
-/// How much two histories differ.
+/// Differences between two histories.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Differences {
     /// Of resultants and reactions, over the largest of them.
@@ -20,7 +20,7 @@ pub struct Differences {
 
 impl Differences {
     /// # Errors
-    /// Where the histories have other columns or another number of rows.
+    /// Differences; an error if the histories have other columns or another number of rows.
     pub fn of(one: &History, other: &History) -> Result<Self, String> {
         let is_force = |name: &&str| name.contains(".resultant_") || name.starts_with("reaction.");
         let mut differences = Self {
@@ -40,7 +40,7 @@ impl Differences {
         Ok(differences)
     }
 
-    /// Whether they are none.
+    /// Returns whether the differences are negligible.
     pub fn are_small(&self) -> bool {
         self.forces <= FORCES && self.iterations <= ITERATIONS
     }

@@ -1,4 +1,4 @@
-//! How runs on three ranks end that are disturbed, or cannot go on, and what is left.
+//! Endings of runs on three ranks that are disturbed or cannot continue, and the state they leave.
 //!
 //! | trial | what it must say |
 //! | --- | --- |
@@ -82,7 +82,7 @@ pub fn check(program: &Path, extent: Extent) -> Result<(), Fault> {
     }
 }
 
-/// Who gets a signal.
+/// Receiver of a signal.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum To {
     Mpirun,
@@ -227,7 +227,7 @@ impl<'a> Trials<'a> {
         let both = format!("kill -TERM {whom}; sleep 0.01; kill -TERM {whom} || true");
         run.disturb("sh", &["-c".into(), both])?;
         let ended = run.ended()?;
-        expect(name, &ended, None, &["interrupt again to stop at once"])?;
+        expect(name, &ended, None, &["interrupt again to stop immediately"])?;
         self.resumed("pad", name, (&ended, &folder), 2)
     }
 
@@ -334,7 +334,7 @@ fn said<'a>(ended: &'a Ended, words: &str) -> &'a str {
     lines.find(|line| line.contains(words)).unwrap_or_default()
 }
 
-/// How many increments a run has taken down.
+/// Number of increments that a run has recorded.
 fn history_so_far(folder: &Path) -> Result<usize, Fault> {
     let text = fs::read_to_string(folder.join("history.csv")).map_err(broken_off)?;
     Ok(text.lines().count().saturating_sub(1))

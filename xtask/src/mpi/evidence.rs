@@ -1,21 +1,20 @@
-//! Whether runs that differ do so by round-off.
+//! Test of whether runs that differ do so by round-off.
 
 use super::differences::{Differences, FORCES, ITERATIONS};
 use crate::scenes::output::History;
 
-/// What runs of one process say, whose loads are changed by round-off, of ranks that differ from
+/// Evidence from runs of one process, with loads changed by round-off, about ranks that differ from
 /// one process.
 ///
-/// The forces of the ranks may be others by a little: those of a changed run must be others by
-/// as much. Or they are of a state that one process does not come to otherwise: a changed run
-/// must come to it, with the forces of the ranks.
-/// They may take more or fewer iterations in an increment: changed runs must differ from the
-/// unchanged one by as many. Where the ranks made other increments their forces cannot be held
-/// against those of others: a changed run must make other increments, too.
+/// The forces of the ranks may differ slightly: those of a changed run must differ by as much. Or
+/// they may belong to a state that one process does not reach otherwise: a changed run must reach
+/// it, with the forces of the ranks. They may take more or fewer iterations in an increment:
+/// changed runs must differ from the unchanged one by as many. If the ranks made other increments,
+/// their forces cannot be compared: a changed run must make other increments, too.
 pub struct Evidence<'a> {
     alone: &'a History,
     together: &'a History,
-    /// Whether the forces of a changed run excuse those of the ranks.
+    /// `true` if the forces of a changed run account for those of the ranks.
     has_forces: bool,
     /// The most iterations by which an increment of a changed run differs.
     iterations: f64,

@@ -4,10 +4,10 @@
 //! [`super::cases`] for the reason. What it refuses ranks must refuse in the same words; what it
 //! stops at, they must stop at.
 //!
-//! Where the state of a point hangs on round-off, iterations may take another way on ranks, and
-//! even lead to another of several states in balance: friction that weakens has more than one.
-//! That is no fault of ranks if it does the same on one process: the scene is run there again and
-//! again with prescribed motions and loads that differ by `1e-12` of their size, until that is
+//! If the state of a point depends on round-off, iterations may take another way on ranks, and even
+//! lead to another of several states in balance: friction that weakens has more than one. That is
+//! no fault of ranks if it does the same on one process: the scene is run there again and again
+//! with prescribed motions and loads that differ by `1e-12` of their size, until that is
 //! [`Evidence`] enough. Such scenes are named with what was found; where there is none, ranks are
 //! wrong. Before that the ranks are run again where increments are others, or nothing but
 //! iterations is over the bounds, as the last digits of MUMPS differ from run to run: that excuses
@@ -38,16 +38,16 @@ const SEEDS: std::ops::Range<u64> = 81_000..81_050;
 const SHORT: [u64; 6] = [81_003, 81_004, 81_005, 81_046, 81_048, 84_033];
 /// Change of loads and motions, over their size.
 const CHANGE: f64 = 1e-12;
-/// How many changed runs there are at most: of scene 81031 one in twelve comes to another state.
+/// Largest number of changed runs: of scene 81031 one in twelve reaches another state.
 const CHANGES: u64 = 120;
 /// Runs on ranks that are made again first.
 const RUNS: usize = 4;
 
-/// What came of a scene.
+/// Outcome of a scene.
 enum Outcome {
     /// The exit code, and the history.
     Ran(i32, History),
-    /// What it said.
+    /// Message of the refusal.
     Refused(String),
 }
 
@@ -93,7 +93,7 @@ struct Scene<'a> {
 }
 
 impl Scene<'_> {
-    /// What came of it, or how ranks differ.
+    /// Outcome of the scene, or the differences between ranks.
     fn compared(&self) -> Result<Result<String, String>, Fault> {
         let alone = self.alone("alone", &self.deck)?;
         let together = self.run("ranks", &self.deck, RANKS)?;
@@ -118,8 +118,8 @@ impl Scene<'_> {
         })
     }
 
-    /// How the ranks differ in another run of the deck, if little: bits of MUMPS differ from
-    /// run to run.
+    /// Differences of the ranks in another run of the deck, if small: bits of MUMPS differ from run
+    /// to run.
     fn again(&self, alone: &History, code: i32) -> Result<Option<Differences>, Fault> {
         for _ in 0..RUNS {
             let Outcome::Ran(other, together) = self.run("again", &self.deck, RANKS)? else {
@@ -135,7 +135,7 @@ impl Scene<'_> {
         Ok(None)
     }
 
-    /// Whether the ranks differ from themselves, or one process from itself as they do.
+    /// Returns whether the ranks differ among themselves, or one process from itself, by as much.
     fn excused(
         &self,
         (alone, together): (&History, &History),

@@ -11,13 +11,13 @@ use std::{
 use super::ENVIRONMENT;
 use crate::{fault::Fault, scenes::output::History};
 
-/// How long a run may take.
+/// Time allowed for a run.
 const LIMIT: Duration = Duration::from_secs(600);
-/// How long it may take to end once it is disturbed.
+/// Time allowed for a run to end once it is disturbed.
 const PATIENCE: Duration = Duration::from_secs(60);
 /// Between two looks.
 const PAUSE: Duration = Duration::from_millis(10);
-/// What Open MPI tells a rank.
+/// Variable by which Open MPI tells a rank its number.
 const RANK: &str = "OMPI_COMM_WORLD_RANK=";
 
 /// A run of the program.
@@ -25,13 +25,13 @@ pub struct Started {
     child: Child,
     folder: PathBuf,
     log: PathBuf,
-    /// When it began, or was disturbed.
+    /// Start of the run, or time at which it was disturbed.
     since: Instant,
-    /// How long it may take from then on.
+    /// Time allowed from then on.
     patience: Duration,
 }
 
-/// How a run ended.
+/// Ending of a run.
 pub struct Ended {
     /// Exit code; none where a signal ended it.
     pub code: Option<i32>,
@@ -176,7 +176,7 @@ pub fn history(folder: &Path) -> Result<History, Fault> {
     History::read(&path).map_err(|words| Fault::Mpi(format!("{}: {words}", path.display())))
 }
 
-/// What keeps a trial from being made.
+/// Fault that prevents a trial.
 pub fn broken_off(cause: std::io::Error) -> Fault {
     Fault::Mpi(format!("a trial cannot be made: {cause}"))
 }

@@ -46,7 +46,7 @@ impl Extent {
         extent
     }
 
-    /// Whether a point is inside.
+    /// Returns whether a point is inside.
     pub fn holds(&self, point: Vector) -> bool {
         (0..3).all(|axis| (self.low[axis]..=self.high[axis]).contains(&point[axis]))
     }
@@ -61,7 +61,7 @@ impl Extent {
     }
 }
 
-/// Whether a point is inside a hexahedron.
+/// Returns whether a point is inside a hexahedron.
 pub fn is_inside(corners: &[Vector; 8], point: Vector) -> bool {
     const OUTSIDE: f64 = 4.0;
     let mut xi = [0.0; 3];

@@ -25,9 +25,9 @@ pub struct Grid {
 /// Course of the first axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Course {
-    /// It has two ends.
+    /// The grid has two ends.
     Open,
-    /// It runs into its own start.
+    /// The grid closes on itself.
     Ring,
 }
 

@@ -119,7 +119,7 @@ fn along_angle(across: f64, along: f64) -> f64 {
     (-along).atan2(across).to_degrees()
 }
 
-/// What is known of a node in contact.
+/// State of a node in contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
     /// Pressure.

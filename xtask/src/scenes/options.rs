@@ -6,7 +6,7 @@ use crate::fault::Fault;
 
 use super::kinds;
 
-/// What is asked for.
+/// Options of the command.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
     /// Seeds.

@@ -1,4 +1,4 @@
-//! What a run wrote: history, summary and fields, read as files of any program.
+//! Output of a run: history, summary and fields, read like the files of any program.
 
 use std::{collections::HashMap, fs, path::Path};
 
@@ -15,7 +15,7 @@ impl History {
     /// Reads a table of numbers with a line of names.
     ///
     /// # Errors
-    /// What is wrong with it, in words.
+    /// Returns the fault of the table, in words.
     pub fn read(path: &Path) -> Result<Self, String> {
         let text = fs::read_to_string(path).map_err(|cause| cause.to_string())?;
         Self::of(&text)
@@ -24,14 +24,14 @@ impl History {
     /// Reads the text of a table.
     ///
     /// # Errors
-    /// What is wrong with it, in words.
+    /// Returns the fault of the table, in words.
     pub fn of(text: &str) -> Result<Self, String> {
         let mut lines = text.lines();
         let names = lines.next().unwrap_or_default().split(',').enumerate();
         let columns: HashMap<String, usize> = names.map(|(i, n)| (n.to_owned(), i)).collect();
         let number = |cell: &str| {
             cell.parse::<f64>()
-                .map_err(|_| format!("`{cell}` is no number"))
+                .map_err(|_| format!("`{cell}` is not a number"))
         };
         let row = |line: &str| {
             line.split(',')
@@ -87,11 +87,10 @@ pub struct Fields {
 }
 
 impl Fields {
-    /// Reads the fields after an increment, which counts from 1; `None` where there
-    /// are none.
+    /// Reads the fields after an increment, which counts from 1; `None` if there are none.
     ///
     /// # Errors
-    /// What is wrong with a file, in words.
+    /// Returns the fault of a file, in words.
     pub fn read(folder: &Path, scene: &Scene, increment: usize) -> Result<Option<Self>, String> {
         let path = |name: &str| folder.join(format!("fields/{name}-{increment:05}.vtu"));
         let mut bodies = HashMap::new();
@@ -117,7 +116,7 @@ impl Fields {
     }
 }
 
-/// What a summary says of the ending.
+/// Ending, as stated by a summary.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Summary {
     /// `completed` or another word.
@@ -139,7 +138,7 @@ impl Summary {
     /// Reads a summary.
     ///
     /// # Errors
-    /// What is wrong with it, in words.
+    /// Returns the fault of the summary, in words.
     pub fn read(path: &Path) -> Result<Self, String> {
         let text = fs::read_to_string(path).map_err(|cause| cause.to_string())?;
         let value: serde_json::Value =

@@ -9,11 +9,11 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// How a run ended.
+/// Result of a run.
 pub struct Run {
     /// The status, unless time ran out.
     pub status: Option<ExitStatus>,
-    /// What was printed.
+    /// Printed text.
     pub log: String,
     /// Seconds it took.
     pub seconds: f64,
@@ -61,10 +61,10 @@ pub fn run(binary: &Path, folder: &Path) -> io::Result<Run> {
     })
 }
 
-/// Whether the schema of the program's decks has a word.
+/// Returns whether the schema of the program's decks contains a word.
 ///
 /// # Errors
-/// When the program cannot be started.
+/// If the program cannot be started.
 pub fn knows(binary: &Path, word: &str) -> io::Result<bool> {
     let output = Command::new(binary).arg("schema").output()?;
     let schema = String::from_utf8_lossy(&output.stdout);

@@ -18,7 +18,7 @@ pub struct Scene {
     pub kind: &'static str,
     /// Upper over lower modulus; `None` where the other side is rigid.
     pub ratio: Option<f64>,
-    /// Where it stands in space.
+    /// Placement in space.
     pub placement: Placement,
     /// Bulk materials: one a body.
     pub bodies: Vec<Body>,
@@ -28,13 +28,13 @@ pub struct Scene {
     pub pairs: Vec<Pair>,
     /// Steps.
     pub steps: Vec<Step>,
-    /// Whether bodies begin inside one another.
+    /// Start of the bodies: apart, or overlapping.
     pub start: Start,
     /// Method of contact to ask for.
     pub enforcement: Option<&'static str>,
     /// Ties.
     pub ties: Vec<Tie>,
-    /// How it may end.
+    /// Endings allowed.
     pub ending: Ending,
     /// Numbers that must come of it, beside what always holds.
     pub claims: Vec<Claim>,
@@ -42,7 +42,7 @@ pub struct Scene {
     pub reference: Option<Box<Scene>>,
 }
 
-/// How a scene may end.
+/// Endings that a scene may have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ending {
     /// Well, or for a reason that physics has.
@@ -53,7 +53,7 @@ pub enum Ending {
     Stops(&'static [&'static str]),
 }
 
-/// How the bodies stand at the start.
+/// Arrangement of the bodies at the start.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Start {
     /// Apart or just touching.
@@ -86,7 +86,7 @@ pub struct Body {
     pub union: Option<(&'static str, [&'static str; 2])>,
     /// Names of sets of one node, and the places that it is nearest to.
     pub nearest: Vec<(&'static str, Vector)>,
-    /// How elements take up strain, if not by default.
+    /// Formulation of elements, if not the default.
     pub formulation: Option<&'static str>,
 }
 
@@ -175,11 +175,11 @@ pub struct Cap {
 pub struct Rigid {
     /// Name.
     pub name: &'static str,
-    /// What it is.
+    /// Shape of the surface.
     pub shape: RigidShape,
 }
 
-/// What is rigid.
+/// Shape of a rigid surface.
 #[derive(Clone, Debug)]
 pub enum RigidShape {
     /// The plane through a point, with its normal.
@@ -238,12 +238,12 @@ pub enum Texture {
 }
 
 impl Scene {
-    /// Whether any step has inertia.
+    /// Returns whether any step has inertia.
     pub fn is_dynamic(&self) -> bool {
         self.steps.iter().any(Step::is_dynamic)
     }
 
-    /// When the last step ends.
+    /// End of the last step.
     pub fn end_time(&self) -> f64 {
         self.steps
             .iter()

@@ -30,11 +30,11 @@ pub struct Step {
     pub gravity: Option<Vector>,
     /// Spectral radius, which also makes the step dynamic.
     pub spectral_radius: Option<f64>,
-    /// Whether the first pair must touch at the end.
+    /// Requirement that the first pair touches at the end.
     pub end: End,
 }
 
-/// What must be at the end of a step.
+/// Requirement on the end of a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum End {
     /// Either.
@@ -84,7 +84,7 @@ impl Step {
         Self { increments, ..self }
     }
 
-    /// Whether inertia acts.
+    /// Returns whether inertia acts.
     pub fn is_dynamic(&self) -> bool {
         let thrown = !self.velocities.is_empty() || !self.throws.is_empty();
         thrown || self.gravity.is_some() || self.spectral_radius.is_some()

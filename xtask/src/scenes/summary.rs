@@ -12,7 +12,7 @@ use super::{
 pub struct Judged {
     /// The scene.
     pub scene: Scene,
-    /// What came of it.
+    /// Verdict on the scene.
     pub verdict: Verdict,
 }
 
@@ -88,22 +88,25 @@ fn line(name: &str, row: &BTreeMap<Class, usize>) -> String {
 const CAUSES: [(&str, &str); 12] = [
     ("no equilibrium", "no equilibrium"),
     ("limit of friction", "limit of friction"),
-    ("lets go", "patch released"),
-    ("is not held", "a body is not held"),
+    ("nothing else restrains", "patch released"),
+    ("is not restrained", "a body is not held"),
     (
         "balance of a contact patch",
         "the balance of a patch is not determined",
     ),
     ("not determined", "an unknown is not determined"),
     ("no longer sees", "a node lost the other surface"),
-    ("no direction left", "a texture lost its direction"),
-    ("unnoticed", "contact was missed"),
+    (
+        "no tangential part any more",
+        "a texture lost its direction",
+    ),
+    ("undetected", "contact was missed"),
     ("inside out", "an element was turned inside out"),
     ("the residual grew", "the residual grew"),
     ("no convergence", "no convergence"),
 ];
 
-/// Why runs that did not complete stopped, by cause.
+/// Reasons why runs did not complete, by cause.
 fn causes(all: &[Judged]) -> String {
     let stopped = all.iter().filter(|judged| {
         matches!(
@@ -240,7 +243,7 @@ fn iterations(all: &[Judged]) -> String {
     )
 }
 
-/// Why scenes did not complete.
+/// Reasons why scenes did not complete.
 fn reasons(all: &[Judged]) -> String {
     let mut text = String::new();
     for judged in all {

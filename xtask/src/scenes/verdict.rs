@@ -1,4 +1,4 @@
-//! What came of a scene, in one word.
+//! Verdict on a scene, in one word.
 
 use super::{
     checks::{Findings, depth::DEPTH},
@@ -12,7 +12,7 @@ use super::{
 pub enum Class {
     /// Ran to its end, and all checks hold.
     Complete,
-    /// The same, with warnings of the program.
+    /// Ran to its end with warnings of the program, and all checks hold.
     Warned,
     /// Ran to its end with a depth beyond its bound, which the program itself tells, see
     /// [`is_told`]; all other checks hold.
@@ -61,14 +61,14 @@ impl Class {
     }
 }
 
-/// What came of a scene.
+/// Verdict on a scene.
 #[derive(Clone, Debug)]
 pub struct Verdict {
     /// Class.
     pub class: Class,
-    /// Why, in a line.
+    /// Reason, in one line.
     pub reason: String,
-    /// What the checks found, of whatever was written.
+    /// Findings of the checks, from whatever was written.
     pub findings: Findings,
     /// Increments that were cut.
     pub cutbacks: usize,
@@ -80,11 +80,11 @@ pub struct Verdict {
 const PHYSICAL: [&str; 9] = [
     "no equilibrium",
     "limit of friction",
-    "lets go",
+    "nothing else restrains",
     "inverted",
     "turned inside out",
     "Jacobian",
-    "is not held",
+    "is not restrained",
     "overlap",
     "penetrat",
 ];
@@ -115,7 +115,7 @@ pub fn judge(
     };
     match status.code() {
         Some(0) => {}
-        Some(2) if run.log.contains("not held") || overlaps_named(scene, &run.log) => {
+        Some(2) if run.log.contains("not restrained") || overlaps_named(scene, &run.log) => {
             return verdict(Class::Named, last, Findings::default(), 0);
         }
         Some(2) => return verdict(Class::Refused, run.log.clone(), Findings::default(), 0),
@@ -170,12 +170,12 @@ const TOLD: f64 = 0.9;
 /// turned by 45 degrees, see [`is_told`].
 const TOO_DEEP: f64 = std::f64::consts::FRAC_PI_4 / 3.0;
 
-/// Whether depth is all that fails, and the program itself tells as much.
+/// Returns whether depth is the only check that fails, and the program itself reports it.
 ///
-/// Weighted rows hold the mean gap over the facets around a node. At the edge of a face whose
-/// facets are turned against the other side by the angle `t`, the outermost nodes are inside
-/// by `h t/3` where the mean is zero, that is by a tenth of `h` from 17 degrees on. That is what
-/// such rows resolve on the mesh, so the program has to tell it, and to tell how much.
+/// Weighted rows control the mean gap over the facets around a node. At the edge of a face whose
+/// facets are rotated against the other side by the angle `t`, the outermost nodes are inside by `h
+/// t/3` where the mean is zero, that is, by a tenth of `h` from 17 degrees on. This is the
+/// resolution of such rows on the mesh, so the program must report it, with its amount.
 fn is_told(findings: &Findings, summary: &Summary) -> bool {
     let failed: Vec<(&str, f64)> = findings
         .failed()
@@ -191,7 +191,7 @@ fn is_told(findings: &Findings, summary: &Summary) -> bool {
 fn completed(findings: &Findings, summary: &Summary, log: &str) -> Class {
     let failed: Vec<&str> = findings.failed().map(|(name, _)| name).collect();
     // Contact below what the mesh resolves, which the depth check bounds and the run tells.
-    if failed == ["contact"] && log.contains("contact does not feel it") {
+    if failed == ["contact"] && log.contains("unnoticed by contact") {
         return Class::Warned;
     }
     if is_told(findings, summary) && summary.status == "completed" {

@@ -37,7 +37,7 @@ impl Grid {
     /// Reads a file.
     ///
     /// # Errors
-    /// What is wrong with it, in words.
+    /// Returns the fault of the file, in words.
     pub fn read(path: &Path) -> Result<Self, String> {
         let bytes = fs::read(path).map_err(|cause| format!("{}: {cause}", path.display()))?;
         Self::of(&bytes).map_err(|wrong| format!("{}: {wrong}", path.display()))
@@ -46,13 +46,15 @@ impl Grid {
     /// Reads the content of a file.
     ///
     /// # Errors
-    /// What is wrong with it, in words.
+    /// Returns the fault of the content, in words.
     pub fn of(bytes: &[u8]) -> Result<Self, String> {
         let section = position(bytes, b"<AppendedData").ok_or("there are no appended data")?;
         let underscore = position(&bytes[section..], b"_").ok_or("the data do not begin")?;
         let appended = &bytes[section + underscore + 1..];
         let text = String::from_utf8_lossy(&bytes[..section]);
-        let file = tags(&text, "VTKFile").next().ok_or("this is no VTK file")?;
+        let file = tags(&text, "VTKFile")
+            .next()
+            .ok_or("this is not a VTK file")?;
         let reader = Reader {
             appended,
             compressed: attribute(file, "compressor").is_some(),
@@ -102,7 +104,7 @@ impl Grid {
         }
     }
 
-    /// The same grid with one more array.
+    /// Grid with one more array.
     #[cfg(test)]
     pub fn with(mut self, name: &str, components: usize, values: Vec<f64>) -> Self {
         self.arrays
@@ -134,7 +136,7 @@ impl Grid {
         }
     }
 
-    /// Whether all numbers are finite.
+    /// Returns whether all numbers are finite.
     pub fn is_finite(&self) -> bool {
         let finite = |array: &Array| array.values.iter().all(|x| x.is_finite());
         self.points.iter().flatten().all(|x| x.is_finite()) && self.arrays.values().all(finite)
@@ -208,7 +210,7 @@ fn numbers(kind: &str, bytes: &[u8]) -> Result<Vec<f64>, String> {
         ($number:ty) => {{
             let (chunks, rest) = bytes.as_chunks::<{ size_of::<$number>() }>();
             if !rest.is_empty() {
-                return Err("its length is no multiple of its numbers'".into());
+                return Err("its length is not a multiple of its numbers'".into());
             }
             Ok(chunks
                 .iter()

@@ -21,7 +21,7 @@ use striae_solve::{
 pub struct Arguments {
     #[command(flatten)]
     pub source: Source,
-    /// Print the same as JSON.
+    /// Print the result as JSON.
     #[arg(long)]
     pub json: bool,
 }
@@ -82,7 +82,7 @@ fn summary(deck: &Deck, advice: &Advice) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Where the deck states what a remark is about.
+/// Location in the deck of the subject of a remark.
 fn place<'d>(deck: &'d Deck, remark: &Remark) -> Option<&'d Location> {
     let kinds = match remark.topic {
         Topic::Fit | Topic::Facing | Topic::NeverMeets | Topic::Friction | Topic::Texture => {

@@ -15,28 +15,28 @@ use crate::failure::Failure;
 /// Times over the last one that are the same.
 const SAME: f64 = 1e-9;
 
-/// Compare two runs: their endings and warnings, and their histories at the times that both have.
+/// Compare two runs: their endings and warnings, and their histories at common times.
 #[derive(clap::Args)]
 pub struct Arguments {
     /// Folder of the first run.
     a: PathBuf,
     /// Folder of the second run.
     b: PathBuf,
-    /// Part of the largest value of a column by which it may differ; beyond, the exit code is 1.
+    /// Difference allowed in a column, relative to its largest value; beyond it, the exit code is 1.
     #[arg(long, alias = "within", value_name = "PART", default_value = "1e-6", value_parser = part)]
     tolerance: f64,
 }
 
-/// How a column of the histories differs.
+/// Difference of a column of the histories.
 struct Difference {
     column: String,
     /// Values at the last common time.
     last: [f64; 2],
     /// Largest difference.
     absolute: f64,
-    /// That over the largest value of the column.
+    /// Ratio to the largest value of the column.
     relative: f64,
-    /// When that is.
+    /// Time of the largest difference.
     time: f64,
 }
 
@@ -62,11 +62,11 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     }
     for (name, warnings) in [("A", warned(&one, &other)), ("B", warned(&other, &one))] {
         for warning in warnings {
-            writeln!(out, "only {name} warns: {warning}")?;
+            writeln!(out, "warning only in {name}: {warning}")?;
         }
     }
     let (times, mut differences) = compared(&first, &second);
-    writeln!(out, "times that both have: {times}")?;
+    writeln!(out, "common times: {times}")?;
     for (name, only) in [
         ("A", missing(&first, &second)),
         ("B", missing(&second, &first)),
@@ -79,11 +79,11 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     write!(out, "{}", listed(&differences))?;
     let verdict = match differences.first() {
         _ if one.status != other.status => Some("only one of them completed".to_owned()),
-        _ if times == 0 => Some("they have no time in common".to_owned()),
+        _ if times == 0 => Some("they have no common time".to_owned()),
         // What is no number does not agree either.
         Some(worst) if worst.relative > arguments.tolerance || worst.relative.is_nan() => {
             Some(format!(
-                "`{}` by {:.1e} of its largest value, and {:e} is allowed",
+                "`{}` by {:.1e} of its largest value, but only {:e} is allowed",
                 worst.column, worst.relative, arguments.tolerance
             ))
         }

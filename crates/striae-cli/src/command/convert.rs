@@ -8,10 +8,10 @@ use std::{
 
 use crate::failure::Failure;
 
-/// Make a deck of an Abaqus model; what has no counterpart is listed with its line.
+/// Convert an Abaqus model to a deck; keywords without a counterpart are listed with their lines.
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// The model: an .inp file of Abaqus. Its meshes stay there.
+    /// The model: an .inp file of Abaqus. The deck reads its meshes from there.
     model: PathBuf,
     /// The deck to be written; it must not exist. Default: the name of the model with .toml.
     #[arg(short, long, alias = "output", value_name = "DECK.toml")]

@@ -1,7 +1,7 @@
 //! `striae fit MEASUREMENTS --law LAW`: constants of a friction law from measured friction.
 //!
-//! It prints the law as a table of a deck, the interval of each constant and how far the
-//! readings scatter about the law; see [`striae_law::fit`].
+//! Prints the law as a table of a deck, the interval of each constant and the scatter of the
+//! readings about the law; see [`striae_law::fit`].
 
 use std::{
     io::Write,
@@ -23,14 +23,14 @@ use crate::failure::Failure;
 
 /// Find the constants of a friction law from measurements.
 ///
-/// MEASUREMENTS is a text file with commas, semicolons or tabs between numbers, one reading a
-/// line, under a line with the names of columns: `angle`, the direction in which the textured
-/// surface slips, in degrees from its texture `a` (across the grooves, against a nap; of two
+/// MEASUREMENTS is a text file with one reading per line, numbers separated by commas, semicolons
+/// or tabs, below a line with the names of columns: `angle`, the direction in which the textured
+/// surface slips, in degrees from its texture `a` (across the grooves, against a nap; for two
 /// textures from the bisector of both; `--angle-from along` counts from the grooves);
-/// `friction`, tangential over normal force, or the forces `tangential` and `normal`; and where
-/// they are known `direction`, the angle of the force that drags the textured surface, `theta`,
+/// `friction`, the ratio of tangential to normal force, or the forces `tangential` and `normal`;
+/// and optionally `direction`, the angle of the force that drags the textured surface, `theta`,
 /// the angle between the textures of two surfaces, and `spread`, the standard deviation of a
-/// reading in proportion to others. Other columns are not used.
+/// reading in proportion to others. Other columns are ignored.
 #[derive(clap::Args)]
 pub struct Arguments {
     /// The file of measurements.
@@ -38,25 +38,25 @@ pub struct Arguments {
     /// The law.
     #[arg(long, value_enum)]
     law: LawName,
-    /// Direction of slip by the orthotropic law.
+    /// Slip rule of the orthotropic law.
     #[arg(long, value_enum, default_value = "opposing")]
     slip_rule: RuleName,
-    /// Where the angle 0 is: slip across the grooves (against a nap), or along them.
+    /// Direction of slip at the angle 0: across the grooves (against a nap), or along them.
     #[arg(long, value_enum, default_value = "across")]
     angle_from: FromName,
-    /// A quantity that the file names otherwise, with the name or number of its column.
+    /// Column of a quantity, by name or number, if the file names it differently.
     #[arg(long, value_name = "QUANTITY=COLUMN", value_delimiter = ',')]
     columns: Vec<NamedColumn>,
-    /// Lines at the beginning of the file to pass over.
+    /// Number of lines to skip at the beginning of the file.
     #[arg(long, value_name = "COUNT", default_value_t = 0)]
     skip_lines: usize,
     /// Probability with which a constant lies in its interval.
     #[arg(long, default_value_t = 0.95)]
     level: f64,
-    /// Draws measurements and law; written as .svg, .png and .csv.
+    /// Plot measurements and law, as .svg, .png and .csv files.
     #[arg(long, value_name = "NAME.svg")]
     plot: Option<PathBuf>,
-    /// Print the same as JSON.
+    /// Print the result as JSON.
     #[arg(long)]
     json: bool,
 }
@@ -97,7 +97,7 @@ impl Arguments {
         }
     }
 
-    /// Where the angle 0 is, for laws that depend on it.
+    /// Direction of slip at the angle 0, for laws that depend on it.
     fn convention(&self) -> Option<&'static str> {
         match (self.law, self.angle_from) {
             (LawName::Coulomb, _) => None,
@@ -261,7 +261,7 @@ fn intervals(found: &Fit) -> String {
             Some([low, high]) if low.is_finite() => {
                 format!("   {level} % within {low:.4} .. {high:.4}")
             }
-            Some(_) => "   open: the measurements do not bound it".to_owned(),
+            Some(_) => "   unbounded by the measurements".to_owned(),
             None => String::new(),
         };
         let name = one.name.to_string();
@@ -274,7 +274,7 @@ fn figures_of(number: f64) -> String {
     ((number * 1e6).round() / 1e6).to_string()
 }
 
-/// How good the law is.
+/// Quality of the fitted law.
 fn verdict(found: &Fit, readings: &[Reading]) -> String {
     let mean = readings.iter().map(|reading| reading.against).sum::<f64>() / readings.len() as f64;
     let mut text = format!("  readings: {}", readings.len());
@@ -287,11 +287,10 @@ fn verdict(found: &Fit, readings: &[Reading]) -> String {
                 found.degrees_of_freedom
             );
         }
-        None => text += ", as many as constants: there is nothing to tell their errors by",
+        None => text += ", as many as constants: their errors cannot be estimated",
     }
     if found.standing == Standing::AtBound {
-        text += "\n  the law that is closest to the readings would create energy; this is the \
-                 closest one that does not. Look at the angles of the readings, or try another law";
+        text += "\n  the law closest to the readings would create energy; this is the closest one that does not. Check the angles of the readings, or try another law";
     }
     text
 }

@@ -31,7 +31,7 @@ use coefficient::coefficient;
 /// Show the friction of a deck or of constants, as figures and numbers.
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// The deck, of which every friction is shown.
+    /// The deck; every friction law in it is shown.
     #[arg(required_unless_present = "constants")]
     deck: Option<PathBuf>,
     #[command(flatten)]
@@ -44,12 +44,12 @@ pub struct Arguments {
     /// Folder for the figures; by default results/NAME, or results/law without a deck.
     #[arg(short, long, alias = "output")]
     out: Option<PathBuf>,
-    /// Print the numbers as JSON, and draw nothing.
+    /// Print the numbers as JSON, without figures.
     #[arg(long)]
     json: bool,
 }
 
-/// A friction in the words of a deck, without a deck.
+/// A friction law stated as in a deck, without a deck.
 #[derive(clap::Args)]
 #[group(id = "constants", multiple = false, conflicts_with = "deck")]
 struct Constants {
@@ -138,8 +138,8 @@ impl Constants {
     }
 }
 
-/// `key=value,..` as keys of a `friction` table, numbers and words as TOML wants them;
-/// a value in brackets or braces is a list or a table and stays as it is.
+/// `key=value,..` as keys of a `friction` table, with numbers and words in TOML's form; a value in
+/// brackets or braces is a list or a table and stays unchanged.
 fn in_deck_words(law: &str, constants: &str) -> String {
     let mut inside = 0;
     let between = |character: char| {
@@ -237,7 +237,7 @@ fn table(friction: &Friction, analyses: &[Analysis]) -> String {
     text
 }
 
-/// That friction dissipates, and where it does least.
+/// Confirmation that friction dissipates, with the place where it does least.
 fn verdict(analyses: &[Analysis]) -> String {
     let Some(first) = analyses.first() else {
         return String::new();
@@ -268,7 +268,7 @@ mod tests {
         arguments: Arguments,
     }
 
-    /// What is printed, or the failure.
+    /// Printed text, or the failure.
     fn said(words: &[&str], folder: &Path) -> Result<String, Failure> {
         let folder = folder.to_string_lossy();
         let words = ["law", "--out", &folder]

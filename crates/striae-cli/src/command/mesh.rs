@@ -15,15 +15,15 @@ use striae_report::picture::WIDTH;
 use super::picture::{direction, width};
 use crate::failure::Failure;
 
-/// Show a mesh file: kinds of elements, sets, quality, and what was left out in reading.
+/// Show a mesh file: kinds of elements, sets, quality, and parts left out in reading.
 #[derive(clap::Args)]
 pub struct Arguments {
     /// The file: .msh of Gmsh, .inp of Abaqus, .vtu or .vtk of VTK, or .stl.
     file: PathBuf,
-    /// Draw the sets of facets, or else those of elements, as a PNG.
+    /// Draw the facet sets, or the element sets if there are none, as a PNG.
     #[arg(long, value_name = "FILE.png", value_parser = png)]
     picture: Option<PathBuf>,
-    /// Direction of sight of the picture, from the eye to the mesh.
+    /// Viewing direction of the picture, from the eye to the mesh.
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = direction)]
     view: Option<[f64; 3]>,
     /// Width of the picture in pixels.
@@ -34,7 +34,7 @@ pub struct Arguments {
     out: Option<PathBuf>,
 }
 
-/// Reads the file, prints what it holds, and writes what is asked for.
+/// Reads the file, prints its content, and writes the requested files.
 pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     match has_ending(&arguments.file, "stl") {
         true => surface(arguments, out),

@@ -9,7 +9,7 @@ use crate::failure::Failure;
 /// Draw the results of a run: deformed bodies, coloured by a field.
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// Folder of the run, also of one under way.
+    /// Folder of the run, which may still be in progress.
     results: PathBuf,
     /// The file, a PNG; by default RESULTS/picture.png.
     #[arg(short, long, alias = "output")]
@@ -17,19 +17,19 @@ pub struct Arguments {
     /// Field by its name in the VTU files; by default the contact pressure.
     #[arg(long)]
     field: Option<String>,
-    /// Component, as `x`, `magnitude`, `von Mises`, `largest principal`.
+    /// Component, such as `x`, `magnitude`, `von Mises`, `largest principal`.
     #[arg(long)]
     component: Option<String>,
     /// Time; by default the last one, otherwise the nearest with fields.
     #[arg(long, allow_negative_numbers = true)]
     time: Option<f64>,
-    /// Direction of sight, from the eye to the bodies.
+    /// Viewing direction, from the eye to the bodies.
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = direction)]
     view: Option<[f64; 3]>,
-    /// How much displacements are magnified.
+    /// Magnification of displacements.
     #[arg(long, default_value_t = 1.0)]
     magnify: f64,
-    /// A body or a surface to leave out; may be given again.
+    /// A body or a surface to leave out; may be repeated.
     #[arg(long, value_name = "NAME")]
     hide: Vec<String>,
     /// Width in pixels.
@@ -56,7 +56,7 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Three numbers parted by commas.
+/// Three numbers separated by commas.
 pub fn direction(text: &str) -> Result<[f64; 3], String> {
     let numbers: Result<Vec<f64>, _> = text.split(',').map(|word| word.trim().parse()).collect();
     let numbers = numbers.ok().and_then(|numbers| numbers.try_into().ok());

@@ -7,7 +7,7 @@ use crate::failure::Failure;
 /// Make one HTML file of the results of a run, with a 3D view, that opens without a network.
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// Folder of the run, also of one under way.
+    /// Folder of the run, which may still be in progress.
     results: PathBuf,
     /// The file; by default RESULTS/report.html.
     #[arg(short, long, alias = "output")]

@@ -38,10 +38,10 @@ pub struct Arguments {
     /// Run all cases.
     #[arg(long)]
     all: bool,
-    /// Leave out what takes long.
+    /// Skip the runs that take long.
     #[arg(long)]
     quick: bool,
-    /// Enforcement of contact in all pairs; nothing is judged then.
+    /// Enforcement of contact in all pairs; results are then not judged.
     #[arg(long)]
     enforcement: Option<Enforcement>,
     /// Folder for the output, with a folder for each case.
@@ -51,12 +51,12 @@ pub struct Arguments {
     common: Common,
 }
 
-/// How contact is enforced.
+/// Enforcement of contact.
 #[derive(Clone, Copy, clap::ValueEnum)]
 enum Enforcement {
-    /// Gaps and slips in the mean, one traction field for both sides.
+    /// Mean gaps and slips, one traction field for both sides.
     Weighted,
-    /// The paper's own fields, rows at nodes.
+    /// The method of the paper: a field on each side, gaps and slips at nodes.
     Collocated,
 }
 
@@ -123,7 +123,7 @@ fn list(out: &mut dyn Write) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Runs a case, prints and writes what came of it. A run that stops is a failed
+/// Runs a case, prints and writes its results. A run that stops is a failed
 /// case, not the end of the program.
 fn reproduced(
     case: &Case,
@@ -164,7 +164,7 @@ fn reproduced(
     if study.enforcement.is_some() {
         writeln!(
             out,
-            "Nothing is judged: what is expected holds for the enforcement of the decks.\n"
+            "No verdict: expected values hold for the enforcement of the decks only.\n"
         )?;
     }
     writeln!(out, "{}", runs(&study))?;
@@ -187,7 +187,7 @@ fn reproduced(
     })
 }
 
-/// What is known beside what was measured, without what this extent leaves out.
+/// Comparisons of measured with known values, without those that this extent omits.
 fn compared(case: &Case, study: &mut Study) -> Result<Vec<Comparison>, Failure> {
     let mut expected = Expected::parse(case.expected).map_err(|cause| OutputError::Content {
         path: Path::new(case.name).join("expected.toml"),
@@ -215,7 +215,7 @@ fn compared(case: &Case, study: &mut Study) -> Result<Vec<Comparison>, Failure> 
     }))
 }
 
-/// How Newton's method did, a line a deck.
+/// Statistics of Newton's method, a line a deck.
 fn runs(study: &Study) -> String {
     if study.summaries.is_empty() {
         return String::new();

@@ -1,5 +1,4 @@
-//! `striae resume DIR`: goes on with a run that was stopped, to the same results, or with
-//! other steps.
+//! `striae resume DIR`: continues a run that was stopped, to equal results, or with other steps.
 
 use std::{
     io::Write,
@@ -17,15 +16,15 @@ use crate::{
     ranks::{Crew, Options},
 };
 
-/// Go on with a run from its last checkpoint, as it was or with other steps.
+/// Continue a run from its last checkpoint, unchanged or with other steps.
 #[derive(clap::Args)]
 pub struct Arguments {
     /// Folder of the run.
     folder: PathBuf,
-    /// A deck with the same bodies and pairs, which begins with the steps that are done.
+    /// A deck with the same bodies and pairs, which begins with the completed steps.
     #[arg(long, value_name = "DECK")]
     with: Option<PathBuf>,
-    /// Set a number of that deck, as for `run`; may be given again.
+    /// Set a number of that deck, as for `run`; may be repeated.
     #[arg(long, value_name = "NAME=VALUE", requires = "with")]
     set: Vec<Setting>,
     /// Folder for the output of the other steps; by default results/NAME of that deck.
@@ -42,7 +41,7 @@ pub struct Arguments {
     ranks: Options,
 }
 
-/// Goes on from the checkpoint in the folder and prints what came of it.
+/// Continues from the checkpoint in the folder and prints the result.
 pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     let crew = Crew::start(&arguments.ranks)?;
     let result = resume_on(arguments, &crew, out);

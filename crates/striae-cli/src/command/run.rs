@@ -42,16 +42,16 @@ pub struct Arguments {
     ranks: Options,
 }
 
-/// Whether there is a report.
+/// Option to write a report.
 #[derive(clap::Args)]
 pub struct Reported {
-    /// Write report.html beside the results, again and again as the run goes on.
+    /// Write report.html beside the results, and update it during the run.
     #[arg(long)]
     report: bool,
 }
 
 impl Reported {
-    /// The folder of which a report is made, if one is.
+    /// The folder to report on, if a report is requested.
     pub fn of(&self, folder: &Path) -> Option<PathBuf> {
         self.report.then(|| folder.to_owned())
     }
@@ -60,10 +60,10 @@ impl Reported {
 /// Options of everything that runs simulations.
 #[derive(clap::Args)]
 pub struct Common {
-    /// Number of threads; by default that of the machine, and one a rank where there are several.
+    /// Number of threads; by default that of the machine, or one per rank if there are several.
     #[arg(long)]
     threads: Option<std::num::NonZeroUsize>,
-    /// Say nothing but errors and results.
+    /// Print only errors and results.
     #[arg(long)]
     quiet: bool,
     /// Show the residual norms of every iteration.
@@ -74,17 +74,17 @@ pub struct Common {
     strict: bool,
 }
 
-/// What warnings do to the exit code.
+/// Effect of warnings on the exit code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Strictness {
     /// Nothing.
     Lenient,
-    /// They make it 1.
+    /// Warnings make it 1.
     Strict,
 }
 
 impl Common {
-    /// How much is said.
+    /// Verbosity of the output.
     pub fn verbosity(&self) -> Verbosity {
         match (self.quiet, self.verbose) {
             (true, _) => Verbosity::Quiet,
@@ -93,7 +93,7 @@ impl Common {
         }
     }
 
-    /// What warnings do.
+    /// Effect of warnings on the exit code.
     pub fn strictness(&self) -> Strictness {
         if self.strict {
             Strictness::Strict
@@ -116,7 +116,7 @@ impl Common {
     }
 }
 
-/// Runs the deck and prints what came of it.
+/// Runs the deck and prints the result.
 pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     let crew = Crew::start(&arguments.ranks)?;
     let result = run_on(arguments, &crew, out);
@@ -150,7 +150,7 @@ fn run_on(arguments: &Arguments, crew: &Crew, out: &mut dyn Write) -> Result<(),
     finish(simulation.over(existing), &folder, common, report, out)
 }
 
-/// Runs, and tells what came of it where this rank speaks.
+/// Runs, and prints the result if this rank prints.
 pub fn finish(
     simulation: Simulation,
     folder: &Path,
@@ -188,7 +188,7 @@ pub fn watched(
     Ok(finished)
 }
 
-/// Prints what came of a run.
+/// Prints the result of a run.
 pub fn concluded(
     finished: Finished,
     folder: &Path,
@@ -201,7 +201,7 @@ pub fn concluded(
     ended(finished, folder, strictness)
 }
 
-/// Whether a run went well.
+/// Result of a finished run.
 fn ended(finished: Finished, folder: &Path, strictness: Strictness) -> Result<(), Failure> {
     let warnings = &finished.summary.warnings;
     match finished.ending {

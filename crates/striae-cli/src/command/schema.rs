@@ -7,12 +7,12 @@ use striae_deck as deck;
 /// Print the JSON schema or the reference of the deck.
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// What to print.
+    /// Format of the output.
     #[arg(long, value_enum, default_value_t = Format::Json)]
     format: Format,
 }
 
-/// What to print.
+/// Format of the output.
 #[derive(Clone, Copy, clap::ValueEnum)]
 enum Format {
     /// JSON schema, with which editors complete and check decks.

@@ -1,8 +1,8 @@
 //! `striae sweep DECK --vary mu=0.1,0.2`: runs of a deck with several values of its numbers.
 //!
-//! Every combination is a run of its own in a folder named by its values, by this program in a
-//! process of its own. What came of them is a table, in the terminal and as `sweep.csv`, which
-//! is written anew whenever a run has ended.
+//! Every combination is run in a folder named by its values, in a separate process of this program.
+//! Results are tabulated in the terminal and in `sweep.csv`, which is rewritten whenever a run has
+//! ended.
 
 mod members;
 mod runs;
@@ -27,16 +27,16 @@ use self::{
 use super::law::make_folder;
 use crate::{failure::Failure, interrupt::listen, source::Source};
 
-/// Run a deck with several values of its numbers, and make a table of the results.
+/// Run a deck with several values of its numbers, and tabulate the results.
 #[derive(clap::Args)]
 pub struct Arguments {
     #[command(flatten)]
     source: Source,
-    /// A parameter, or another number by its path, and its values; given again, all
+    /// A parameter, or another number by its path, and its values; if repeated, all
     /// combinations are run.
     #[arg(long, value_name = "NAME=V1,V2,..", required = true)]
     vary: Vec<Variation>,
-    /// Runs at a time, each on one thread.
+    /// Number of simultaneous runs, each on one thread.
     #[arg(long, default_value_t = std::num::NonZeroUsize::MIN)]
     workers: std::num::NonZeroUsize,
     /// Folder for the table and the runs; by default results/NAME-sweep.

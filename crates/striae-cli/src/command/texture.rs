@@ -33,7 +33,7 @@ pub struct Arguments {
     out: Option<PathBuf>,
 }
 
-/// Paints the surfaces, draws them and prints what is known of them.
+/// Paints the surfaces, draws them and prints their properties.
 pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     let deck = arguments.source.read()?;
     let folder = arguments

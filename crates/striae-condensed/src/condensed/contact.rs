@@ -36,7 +36,7 @@ pub(super) struct ContactSystem {
     pub(super) freedom: usize,
 }
 
-/// How the contact system is solved.
+/// Solver of the contact system.
 #[derive(Debug)]
 enum Solver {
     /// With the flexibilities of the bodies.
@@ -149,8 +149,8 @@ impl Condensed {
         Ok(report)
     }
 
-    /// What contact touches, and the elimination of what it does not: the one there is,
-    /// unless contact touches more than then.
+    /// Unknowns that contact touches, and the elimination of the others: the existing one, unless
+    /// contact touches more than it did then.
     fn untouched(
         &self,
         (kinds, rows): (&[Kind], &[Row]),
@@ -179,7 +179,7 @@ impl Condensed {
             .collect()
     }
 
-    /// What is left of them.
+    /// Remaining blocks, after the elimination of unknowns that contact does not touch.
     pub(super) fn blocks<'a>(&'a self, untouched: &'a [Option<Untouched>]) -> Vec<Block<'a>> {
         let left = |(whole, own): (Block<'a>, &'a Option<Untouched>)| match own {
             Some(own) => own.block(),

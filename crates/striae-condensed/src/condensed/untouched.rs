@@ -103,7 +103,7 @@ impl Untouched {
         }
     }
 
-    /// What is left of the complement.
+    /// Remaining block of the complement.
     pub(super) fn block(&self) -> Block<'_> {
         Block {
             places: &self.left,
@@ -222,15 +222,15 @@ fn smallest_pivot<T: Real>(columns: &[T], size: usize) -> f64 {
 
 /// Kept unknowns that contact touches or has touched.
 pub(super) struct Touched {
-    /// Which they are.
+    /// Flags of the kept unknowns that contact touches.
     pub(super) touched: Vec<bool>,
-    /// Whether there are more than before.
+    /// `true` if there are more than before.
     pub(super) is_more: bool,
 }
 
-/// Which kept unknowns contact touches: bulk unknowns that share an entry with a
-/// multiplier, with another body, or one whose mirror image is not the same. What is
-/// solved for apart counts as touched, and what was touched `before`, if that is known.
+/// Kept unknowns that contact touches: bulk unknowns that share an entry with a multiplier or with
+/// another body, or whose mirror entry differs. Unknowns that are solved for separately count as
+/// touched, and so do those touched `before`, if these are known.
 pub(super) fn touched(kinds: &[Kind], rows: &[Row], before: Vec<bool>) -> Touched {
     let entry = |i: u32, j: u32| {
         let row = &rows[i as usize];

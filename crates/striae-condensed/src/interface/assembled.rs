@@ -65,11 +65,11 @@ impl Block<'_> {
 /// Kinds of the kept unknowns.
 #[derive(Debug, Default)]
 pub(crate) struct Places {
-    /// What each one is.
+    /// Kind of each kept unknown.
     pub(crate) kinds: Vec<Kind>,
 }
 
-/// What a kept unknown is.
+/// Kind of a kept unknown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     /// Solved for by other means; it has no entries.
@@ -95,7 +95,7 @@ pub(crate) struct Assembled {
     /// Kept unknowns whose rows are dense, and their sparse parts.
     pub(super) long: Vec<u32>,
     couplings: Vec<Row>,
-    /// Whether the column of each kept unknown is dense.
+    /// `true` for kept unknowns with a dense column.
     dense: Vec<bool>,
 }
 

@@ -8,9 +8,9 @@
 //! [   G   G_m ] [m] = [c],         (G_m - G F C) m = c - G F b
 //! ```
 //!
-//! with `F` in the place of `(S + A)^-1`: terms of contact in `A` that are not symmetric,
-//! couple two bodies or are newer than `F` are left to a few iterations of GMRES, whose
-//! matrix is the true one. They are small: of the order of the pressure over the stiffness.
+//! with `F` instead of `(S + A)^-1`: terms of contact in `A` that are not symmetric, couple two
+//! bodies or are newer than `F` are left to a few iterations of GMRES, whose matrix is the true
+//! one. They are small: of the order of the pressure over the stiffness.
 
 mod complement;
 mod couplings;
@@ -39,7 +39,7 @@ const ROUGH: f64 = 1e-3;
 const SINGLE: f64 = 1e-6;
 const DOUBLE: f64 = 1e-10;
 
-/// What a solution is for.
+/// Purpose of a solution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Purpose {
     /// A preconditioner.
@@ -48,12 +48,12 @@ pub(crate) enum Purpose {
     Answer,
 }
 
-/// Whether factors are tried on a right-hand side.
+/// Decision on a trial solve with new factors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Trial {
-    /// They are.
+    /// The factors are tried.
     Due,
-    /// Those of a similar system were.
+    /// Factors of a similar system passed the trial.
     Waived,
 }
 
@@ -102,7 +102,7 @@ impl Compliant {
         }
     }
 
-    /// Whether GMRES converges for one right-hand side.
+    /// Returns whether GMRES converges for one right-hand side.
     fn is_good(&self, blocks: &[Block<'_>], flexibility: &Flexibility) -> bool {
         let one = |kind: &Kind| f64::from(u8::from(*kind != Kind::Apart));
         let rhs: Vec<f64> = self.kinds.iter().map(one).collect();
@@ -187,7 +187,7 @@ impl Compliant {
         });
     }
 
-    /// The solution with the flexibilities in the place of the inverse.
+    /// The solution with the flexibilities instead of the inverse.
     fn precondition<T: Real>(&self, inverses: &[Inverse<T>], y: &mut [f64]) {
         let mut z = vec![0.0; y.len()];
         add_flexible(inverses, y, &mut z, 1.0);

@@ -1,4 +1,4 @@
-//! How many unknowns contact leaves free.
+//! Number of unknowns that contact leaves free.
 //!
 //! The row of a multiplier says what the multiplier is, as where a node slips; or how two
 //! sides yield to it, as on the ramp of a weak node; or, with no multiplier in it, it holds
@@ -8,10 +8,10 @@
 //! freedom = bulk unknowns - rows without multipliers
 //! ```
 //!
-//! This is the order of the dense system that an elimination of the multipliers leaves
-//! if rows do not fill up: none where all nodes stick to a rigid surface, two for each node
-//! that slips there, and at least the unknowns of one side between two bodies. It follows
-//! from the rows alone, whichever way the system is solved.
+//! The number is the order of the dense system that an elimination of the multipliers leaves if
+//! rows do not fill up: none where all nodes stick to a rigid surface, two for each node that slips
+//! there, and at least the unknowns of one side between two bodies. It follows from the rows alone,
+//! whichever way the system is solved.
 
 use super::Kind;
 use rayon::prelude::*;
@@ -26,7 +26,7 @@ pub(crate) fn freedom(kinds: &[Kind], rows: &[Row]) -> usize {
     bulk.saturating_sub(held)
 }
 
-/// Whether a row has no multiplier in it.
+/// Returns whether a row contains no multiplier.
 fn holds(kinds: &[Kind], row: &Row) -> bool {
     let largest = row.iter().fold(0.0_f64, |m, e| m.max(e.1.abs()));
     let counts = |a: f64| a.abs() > DROPPED * largest;

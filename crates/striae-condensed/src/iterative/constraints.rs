@@ -105,7 +105,7 @@ impl Scaled<'_> {
 pub(crate) struct Compliance(Vec<(u32, [f64; 9])>);
 
 impl Compliance {
-    /// Of the bulk as it is without constraints.
+    /// Constraints of the bulk without stiffening.
     pub(crate) fn of(scaled: &Scaled<'_>) -> Self {
         let nodes = &scaled.nodes;
         let mut blocks = Vec::new();
@@ -131,8 +131,8 @@ impl Compliance {
         found.map_or([0.0; 3], |at| product(&self.0[at].1, force))
     }
 
-    /// Displacements of all nodes in the place of forces on them, which only nodes with a
-    /// block may have.
+    /// Displacements of all nodes instead of forces on them, which only nodes with a block may
+    /// have.
     pub(crate) fn apply(&self, values: &mut [f64]) {
         for (node, block) in &self.0 {
             let own = &mut values[3 * *node as usize..][..3];

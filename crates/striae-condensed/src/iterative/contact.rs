@@ -1,17 +1,17 @@
 //! The multipliers' part of the preconditioner, sparse on the contact surfaces.
 //!
-//! The Schur complement is `S = G_m - G_x A^-1 C` with `A = K + g^T s g`. With something
-//! simple, `F`, in the place of `K^-1` alone it need not be made: constraints have
-//! `g x = r_g` but for their small entries of multipliers, so that `K x = -C m - g^T s r_g`,
+//! The Schur complement is `S = G_m - G_x A^-1 C` with `A = K + g^T s g`. With a simple
+//! approximation `F` of `K^-1` alone it need not be formed: constraints have `g x = r_g` but for
+//! their small entries of multipliers, so that `K x = -C m - g^T s r_g`,
 //!
 //! ```text
 //! S m = r   =>   (G_m - G_x F C) m = r + G_x F g^T s r_g.
 //! ```
 //!
-//! Where `C = g^T` this is `S^-1 = S_K^-1 - s`, `S_K` of `K` alone (Sherman, Morrison,
-//! Woodbury): smooth tractions are met by `s`, which is exact. For rough ones `F` has the
-//! node-wise diagonal `D` of `K` and motions `z` of [patches](super::patches),
-//! `F = D^-1 + sum z z^T / d`; with the sizes `v` of these motions as unknowns
+//! If `C = g^T`, this is `S^-1 = S_K^-1 - s`, `S_K` of `K` alone (Sherman, Morrison, Woodbury):
+//! smooth tractions are met by `s`, which is exact. For rough ones `F` has the node-wise diagonal
+//! `D` of `K` and motions `z` of [patches](super::patches), `F = D^-1 + sum z z^T / d`; with the
+//! sizes `v` of these motions as unknowns
 //!
 //! ```text
 //! [ G_m - G_x D^-1 C   G_x z ] [m]   [r + G_x D^-1 g^T s r_g]
@@ -34,7 +34,7 @@ use striae_sparse::{
     LinearSolver, MultifrontalLu, SolveError, Supervariable, sparse_elimination::Row,
 };
 
-/// What is added to the diagonal in the row of a constraint.
+/// Term added to the diagonal in the row of a constraint.
 const SLIGHT: f64 = 1e-4;
 
 /// Couplings with the bulk and factors of what approximates the Schur complement.

@@ -1,10 +1,10 @@
 //! Patches of the contact surfaces that move as one.
 //!
-//! A node-wise diagonal `D` knows how a node yields to a force on it alone. Where meshes do
-//! not match, rough multipliers make smooth forces, too, to which a body yields much more:
-//! by as much as their wavelength is longer than an element. A half-space meets a motion of
-//! a patch of `n` nodes with `1 / sqrt(n)` of the stiffness that the nodes would meet one by
-//! one, as its stiffness grows with the width of what presses on it. So
+//! A node-wise diagonal `D` describes how a node yields to a force on it alone. Where meshes do not
+//! match, rough multipliers make smooth forces, too, to which a body yields much more: by as much
+//! as their wavelength is longer than an element. A half-space meets a motion of a patch of `n`
+//! nodes with `1 / sqrt(n)` of the stiffness that the nodes would meet one by one, as its stiffness
+//! grows with the width of what presses on it. So
 //!
 //! ```text
 //! K^-1 ~ D^-1 + sum_a z_a z_a^T / d_a,    d_a = gamma / sqrt(n_a),

@@ -24,7 +24,7 @@ pub struct Group {
     pub bulk: usize,
     /// Multipliers.
     pub multipliers: usize,
-    /// When they are eliminated.
+    /// Tier in which they are eliminated.
     pub tier: Tier,
 }
 
@@ -103,10 +103,10 @@ impl ContactFactors {
         self.constraints.len()
     }
 
-    /// What a constraint adds to the bulk.
+    /// Contribution of a constraint to the bulk.
     ///
     /// # Panics
-    /// When there is none of that number.
+    /// If there is no constraint of that number.
     pub fn stiffening(&self, constraint: usize) -> Stiffening<'_> {
         let constraint = &self.constraints[constraint];
         Stiffening {
@@ -229,7 +229,7 @@ mod tests {
         (DVector::from(found.to_vec()) - &expected).norm() / expected.norm()
     }
 
-    /// What is added to the diagonals of constraints remains.
+    /// Bound for the error left by the terms on the diagonals of constraints.
     const REMAINS: f64 = 10.0 * 1e-4;
 
     #[test]

@@ -11,13 +11,13 @@
 //!
 //! One that cannot slip at all has `z = 0`.
 //!
-//! Where friction falls with the slip rate it may fall faster with slip than the bodies let
-//! go: with `f(d) = F - k d - varpi(d/dt)`, `f'(0)` is positive, and Newton's method goes
-//! backwards from rest. Where `varpi` is convex, as in a decay, `f` is concave, and from the right
-//! of the solution Newton's method does not turn back. The least friction leads there: a node
-//! that sticks, slips and sticks begins with it at every second time. Where `f` is negative
-//! throughout there is no slip, and Newton's method goes back and forth about its largest
-//! value. A node whose slip goes back and forth sticks, therefore.
+//! If friction falls with the slip rate, it may fall faster with slip than the bodies relax: with
+//! `f(d) = F - k d - varpi(d/dt)`, `f'(0)` is positive, and Newton's method goes backwards from
+//! rest. Where `varpi` is convex, as in a decay, `f` is concave, and from the right of the solution
+//! Newton's method does not turn back. The least friction leads there: a node that sticks, slips
+//! and sticks begins with it at every second time. Where `f` is negative throughout there is no
+//! slip, and Newton's method goes back and forth about its largest value. A node whose slip goes
+//! back and forth sticks, therefore.
 
 use nalgebra::{Matrix2, Vector2};
 
@@ -28,7 +28,7 @@ use super::{
 };
 use crate::{configuration::Configuration, table_1::Corrector, term::Field, unknowns::Status};
 
-/// What a tangential row states, its residual and its gradient over the lanes.
+/// Tangential row: its field, its residual and its gradient over the lanes.
 pub(super) type TangentialRow = (Field, f64, [f64; N]);
 
 /// Status and tangential rows of a closed node with the unknowns `[z1, z2]`; `r` is the
@@ -42,6 +42,7 @@ pub(super) fn tangential(
 ) -> (Status, [TangentialRow; 2]) {
     let z = [Q::variable(z1, TRACTION + 1), Q::variable(z2, TRACTION + 2)];
     if state.friction.is_frictionless() {
+        // Without friction the rows state `z = 0`, which no status changes.
         return (Status::Slip, z.map(traction));
     }
     let rate = match iteration {
@@ -57,6 +58,8 @@ pub(super) fn tangential(
         mobility: Mobility::new(state),
         size: configuration.size(state.node.side, state.node.node),
         begun: match state.node.before.status {
+            // From the right of the solution, at the smallest friction, Newton's method converges
+            // monotonically; from rest it may move away.
             Status::Open | Status::Stick if state.node.before.begun % 2 == 1 => {
                 state.varpi(Rate::Weakest)
             }
@@ -84,9 +87,11 @@ struct Friction<'a> {
 }
 
 impl Friction<'_> {
-    /// In the first iteration: nodes that slipped go on.
+    /// In the first iteration: nodes that slipped continue to slip.
     fn first(&self) -> (Status, [TangentialRow; 2]) {
         let [z1, z2] = self.z.map(|z| z.re);
+        // Only nodes still near the slip surface continue to slip; one far inside has been
+        // unloaded.
         if self.state.node.slipped && z1.hypot(z2) > 0.5 * self.least_radius() {
             (Status::Slip, self.continued())
         } else {
@@ -97,6 +102,7 @@ impl Friction<'_> {
     /// In a later one: `y` decides.
     fn later(&self, r: f64) -> (Status, [TangentialRow; 2]) {
         let before = &self.state.node.before;
+        // Only the first time, as the reduced tangent costs quadratic convergence.
         let begins = before.status != Status::Slip && before.begun == 0;
         let slips = match &self.mobility {
             Mobility::Along(way) => {
@@ -148,8 +154,8 @@ impl Friction<'_> {
         self.slip_or_stick(rows)
     }
 
-    /// The radius of the slip surface at which slip goes on: where friction depends on the
-    /// slip rate, `|z|` is that of the rate so far.
+    /// Radius of the slip surface at which slip continues: if friction depends on the slip rate,
+    /// `|z|` is that of the rate so far.
     fn continued_radius(&self) -> Q {
         let radius = self.reaching(&self.varpi, &self.z);
         let [z1, z2] = self.z.map(|z| z.re);
@@ -167,12 +173,13 @@ impl Friction<'_> {
         self.reaching(&kinetic, &self.z).re
     }
 
-    /// Whether a node slips, by the length of `y` and the radius of the slip surface in its
-    /// direction. Where friction falls with the slip rate, a node that turns around, or
-    /// whose slip goes back and forth, sticks first: from there its friction at rest decides.
+    /// Returns whether a node slips, from the length of `y` and the radius of the slip surface in
+    /// its direction. Where friction falls with the slip rate, a node whose slip reverses or
+    /// oscillates sticks first; from then on its static friction decides.
     fn slips(&self, length: f64, radius: f64, y: [f64; 2]) -> bool {
         let [first, second] = &self.state.turned;
         let before = &self.state.node.before;
+        // The slip found would be against the direction of friction that it was computed with.
         let around = first.re * y[0] + second.re * y[1] < 0.0;
         let du = self.state.slip[0].re.hypot(self.state.slip[1].re);
         let sticks = self.state.friction.weakens()
@@ -206,8 +213,8 @@ impl Friction<'_> {
         Q::combination([(1.0, &z), (r, &turned)])
     }
 
-    /// Slip that goes on in the direction of `z`: `|z| = varpi rho` and no slip
-    /// across, or no `z` across where the node cannot move that way.
+    /// Slip that continues in the direction of `z`: `|z| = varpi rho` and no slip across, or no `z`
+    /// across where the node cannot move that way.
     fn continued(&self) -> [TangentialRow; 2] {
         let z = &self.z;
         let radius = self.continued_radius();
@@ -236,6 +243,7 @@ impl Friction<'_> {
 
     /// No slip.
     fn resting(&self, slip: Q) -> TangentialRow {
+        // Stick residuals are lengths and are measured by the facet size, not by a pressure.
         (Field::Stick(self.size), slip.re, slip.slope)
     }
 }
@@ -276,9 +284,12 @@ const BEGINNING: f64 = 0.3;
 
 /// `f beta` for `|z|` and its part along `y`, by which the tangent of a node is reduced along `y`.
 fn reduction(length: f64, along: f64, radius: f64, begins: bool) -> f64 {
+    // The last bound avoids 0/0 at a node that has neither traction nor friction.
     let f = along / radius.max(length).max(f64::MIN_POSITIVE);
     let whole = f * damping(length, along, radius);
     match begins {
+        // A body held by friction alone would lose all tangential stiffness when all its nodes
+        // begin to slip in one iteration.
         true => whole.min(1.0 - BEGINNING),
         false => whole,
     }
@@ -292,6 +303,7 @@ fn damping(length: f64, along: f64, radius: f64) -> f64 {
     } else {
         1.0
     };
+    // Traction against the slip direction may make the undamped Jacobian indefinite.
     if alpha < 0.0 {
         1.0 / (1.0 - alpha * delta)
     } else {
@@ -309,6 +321,7 @@ fn slip(z: &[Q; 2], y: &[Q; 2], limit: &Q, begins: bool) -> [TangentialRow; 2] {
     let reduced = reduction(zv.norm(), zv.dot(&direction), radius, begins);
     let along = zv.dot(&direction);
     let f = match along == 0.0 {
+        // The quotient below would be 0/0.
         true => Matrix2::zeros(),
         false => zv * direction.transpose() * (reduced / along),
     };

@@ -1,7 +1,7 @@
 //! The directions in which a closed node can slip.
 //!
-//! Where friction is determined along one direction `q` only (see [`crate::directions`]), a node
-//! slips along it, and `z` points along `w = unit(K^-1 q)`.
+//! If friction is determined along one direction `q` only (see [`crate::directions`]), a node slips
+//! along it, and `z` points along `w = unit(K^-1 q)`.
 
 use super::state::{NodeState, Q};
 use crate::slip_freedom::SlipFreedom;
@@ -25,7 +25,7 @@ pub(super) struct Way {
 }
 
 impl Mobility {
-    /// Where friction of a node is determined.
+    /// Mobility of a node, from the directions in which its friction is determined.
     pub(super) fn new(state: &NodeState) -> Self {
         match state.node.freedom {
             SlipFreedom::Plane => Self::Free,

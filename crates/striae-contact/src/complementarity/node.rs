@@ -1,4 +1,4 @@
-//! What the rows of a kept node are made from.
+//! Inputs of the rows of a kept node.
 
 use striae_law::friction::Friction;
 use striae_mesh::Vec3;
@@ -10,11 +10,11 @@ use crate::{
     unknown::Prescribed, unknowns::Label,
 };
 
-/// Which iteration of an increment is evaluated.
+/// Stage of the iterations of an increment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Iteration {
-    /// The first: touching nodes are closed; closed nodes stick or, if they slipped
-    /// before, go on slipping in their direction.
+    /// The first: touching nodes are closed; closed nodes stick or, if they slipped before,
+    /// continue to slip in their direction.
     First,
     /// A later one: the state decides.
     Later {
@@ -30,14 +30,14 @@ impl Iteration {
     pub const LATER: Self = Self::Later { slip_weight: 1.0 };
 }
 
-/// What a pair is evaluated under.
+/// Conditions under which a pair is evaluated.
 #[derive(Clone, Copy, Debug)]
 pub struct Conditions<'a> {
     /// Friction law of the step.
     pub friction: &'a Friction,
     /// Prescribed positions.
     pub prescribed: &'a Prescribed,
-    /// Which iteration it is.
+    /// Stage of the iteration.
     pub iteration: Iteration,
     /// Nodes whose rows are wanted with derivatives, by side; of all without.
     pub wanted: Option<&'a [Vec<bool>; 2]>,
@@ -56,20 +56,20 @@ pub struct ContactNode<'a> {
     pub frame: &'a Frame,
     /// Textures of both sides at the node.
     pub textures: &'a NodeTextures,
-    /// Slip rate, where friction asks for it.
+    /// Slip rate, if friction depends on it.
     pub rate: &'a TrackedScalar,
-    /// Whether it slipped in the last converged increment.
+    /// `true` if the node slipped in the last converged increment.
     pub slipped: bool,
     /// Its slip up to the last converged state.
     pub accumulated: f64,
     /// In which directions its friction is determined.
     pub freedom: SlipFreedom,
-    /// What the iterations before made of it.
+    /// Label from the previous iterations.
     pub before: Label,
     /// `p`, `z1`, `z2`.
     pub unknowns: [f64; 3],
     /// Friction traction `tau`.
     pub tau: Vec3,
-    /// Whether derivatives of its rows are wanted.
+    /// Request for derivatives of the rows.
     pub derivatives: Derivatives,
 }

@@ -41,7 +41,7 @@ const PRESSURE: usize = 23;
 /// Derivative of the gap below which nothing can change it.
 const FIXED: f64 = 1e-9;
 
-/// The slip rate that friction is asked for at.
+/// Slip rate at which friction is evaluated.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Rate {
     /// The present one.
@@ -60,7 +60,7 @@ pub(super) struct NodeState<'a> {
     pub(super) friction: &'a Friction,
     numbering: Numbering,
     prescribed: &'a Prescribed,
-    /// What the lanes depend on.
+    /// Lanes that the quantities depend on.
     pub(super) lanes: Lanes<'a>,
     /// The gap.
     pub(super) gap: Q,
@@ -113,6 +113,8 @@ impl<'a> NodeState<'a> {
             component
         };
         let of_slip = [0, 1].map(|axis| component(axis, &slip.value, node.frame.t[axis].value));
+        // The law works on `K^-1 du`: in these variables the slip surface is a circle, or a table
+        // over one angle.
         let turned = [0, 1].map(|axis| {
             let t = node.frame.t[axis].value;
             let mut component = component(axis, &turned, k_inverse.tr_mul(&t));
@@ -148,7 +150,7 @@ impl<'a> NodeState<'a> {
         component
     }
 
-    /// What is told of the node.
+    /// Results reported for the node.
     pub(super) fn result(&self) -> NodeResult {
         let ContactNode {
             frame,
@@ -182,9 +184,9 @@ impl<'a> NodeState<'a> {
         self.node.kinematics.bounding_pressure(p)
     }
 
-    /// Whether a triple is the position of the node itself or one of the other side.
-    /// Neighbours on its own side have rows of their own; that they can move makes no room
-    /// for one more.
+    /// Returns whether a triple is the position of the node itself or of a node of the other side.
+    /// Neighbours on its own side have rows of their own, so their freedom to move does not make
+    /// room for one more.
     pub(super) fn answers(&self, first: u32) -> bool {
         match self.numbering.unknown(first) {
             Unknown::Position { side, node, .. } => {
@@ -194,7 +196,7 @@ impl<'a> NodeState<'a> {
         }
     }
 
-    /// Whether a component of a triple is such a position and not prescribed.
+    /// Returns whether a component of a triple is such a position and not prescribed.
     pub(super) fn is_free_position(&self, first: u32, axis: usize) -> bool {
         match self.numbering.unknown(first) {
             Unknown::Position { side, node, .. } => {
@@ -204,7 +206,7 @@ impl<'a> NodeState<'a> {
         }
     }
 
-    /// Whether a free position changes the gap.
+    /// Returns whether a free position changes the gap.
     pub(super) fn is_free(&self) -> bool {
         let reaches = &self.node.kinematics.reaches;
         reaches.iter().any(|(first, slope)| {

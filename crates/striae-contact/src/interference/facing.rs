@@ -32,7 +32,8 @@ pub struct Facing {
 /// face each other.
 const OPPOSED: f64 = -1e-3;
 
-/// How far a node may lie beside the edge of the other side, over the facet size there.
+/// Distance up to which a node may lie beside the edge of the other side, over the facet size
+/// there.
 const BESIDE: f64 = 0.5;
 
 /// All nodes of the deformable sides that face the other side: their normals are opposed,
@@ -59,7 +60,7 @@ pub fn facing(configuration: &Configuration) -> Vec<Facing> {
     }
 }
 
-/// What a node faces, without its share in the area.
+/// Facet that a node faces, without its share in the area.
 pub fn across(configuration: &Configuration, side: Side, node: SurfaceNode) -> Option<Facing> {
     let (gap, opposite) = nearest(configuration, side, node)?;
     Some(Facing {

@@ -1,4 +1,4 @@
-//! Where a point is with respect to a surface of facets.
+//! Position of a point relative to a surface of facets.
 //!
 //! Quadrilaterals are four triangles around their centre, so that nothing depends on
 //! the corner that is named first. A point is in front of the surface or behind it by

@@ -14,8 +14,8 @@
 //! have to agree. Points are the nodes and the centres of the facets, and the facets that meet
 //! at a point are not counted: they are a fan around it, which no half-line from it meets again.
 //!
-//! How deep a point is inside is the distance of the nearest facet that it is behind; of its own
-//! body only of facets that face it. Cost: a tree over the facets and a half-line for each point,
+//! The depth of a point is the distance of the nearest facet that it is behind; for its own body
+//! only facets that face it count. Cost: a tree over the facets and a half-line for each point,
 //! `O(n log n)` in the number of facets.
 
 use rayon::prelude::*;
@@ -42,7 +42,7 @@ pub struct Skins {
 pub struct Overlap {
     /// The point.
     pub spot: Spot,
-    /// Where it is.
+    /// Position of the point.
     pub point: Vec3,
     /// The nearest facet that it is behind.
     pub facet: FacetId,
@@ -121,7 +121,7 @@ impl<'a> PlacedSkins<'a> {
             .collect()
     }
 
-    /// How deep a point is inside a body; `None` where it is not.
+    /// Depth of a point inside a body; `None` if it is outside.
     pub fn overlap(&self, spot: Spot, judged: impl Fn(Spot, FacetId) -> bool) -> Option<Overlap> {
         let around = self.skins.around(spot);
         let point = located(&self.skins.surface, spot, |node| self.x[node]);
@@ -171,7 +171,7 @@ impl<'a> PlacedSkins<'a> {
         inside.map(|(body, _)| body).collect()
     }
 
-    /// How deep a point is behind the facets of a body.
+    /// Depth of a point behind the facets of a body.
     fn depth(
         &self,
         (spot, point, normal): (Spot, &Vec3, &Vec3),
@@ -257,9 +257,9 @@ fn tilted(n: &Vec3, [s, t]: [f64; 2]) -> Vec3 {
     (n + first * s + n.cross(&first) * t).normalize()
 }
 
-/// How a half-line passes a triangle: 1 out through its back, -1 in through its front, 0 beside
-/// it. Triangles with an edge in common leave no gap between them: they have opposite signs of the
-/// same volume there.
+/// Passage of a half-line through a triangle: 1 out through its back, -1 in through its front, 0
+/// beside it. Triangles with a common edge leave no gap between them: they have opposite signs of
+/// the same volume there.
 fn way_out([a, b, c]: &[Vec3; 3], start: &Vec3, direction: &Vec3) -> i32 {
     let [a, b, c] = [a - start, b - start, c - start];
     let volume = |p: &Vec3, q: &Vec3| direction.dot(&p.cross(q));

@@ -34,7 +34,7 @@ struct Passage {
     normal: Vec3,
 }
 
-/// What a point goes through.
+/// Result of the path of a point through a surface.
 pub(super) enum Through {
     /// Into the surface, and how deep.
     Surface(Nearest),
@@ -57,7 +57,7 @@ impl<'a> Moving<'a> {
         }
     }
 
-    /// Whether something of the sides, or what is behind their facets, can meet.
+    /// Returns whether any parts of the sides, or of the bodies behind their facets, can meet.
     pub(super) fn may_meet(&self, other: &Self) -> bool {
         let boxes = (self.tree.bounds(), other.tree.bounds());
         let (Some(own), Some(others)) = boxes else {
@@ -67,14 +67,13 @@ impl<'a> Moving<'a> {
             .meets(&others.inflated(other.thickness))
     }
 
-    /// Where a point is at both ends.
+    /// Positions of a point at both ends.
     pub(super) fn path(&self, spot: Spot) -> [Vec3; 2] {
         let place = |at: &Snapshot| located(at.surface, spot, |node| at.x[node]);
         self.at.map(place)
     }
 
-    /// How a point goes through the surface; `before` says where it was inside at the
-    /// start.
+    /// Passage of a point through the surface; `before` is its place inside at the start.
     pub(super) fn passed_by(
         &self,
         path: &[Vec3; 2],
@@ -141,7 +140,7 @@ impl<'a> Moving<'a> {
             .clamp(1.0, MOST_STEPS) as usize
     }
 
-    /// Where the point is deepest behind the surface after the time `since`.
+    /// Deepest position of the point behind the surface after the time `since`.
     fn deepest(&self, path: &[Vec3; 2], since: f64, steps: usize) -> Option<Nearest> {
         let mut deepest: Option<Nearest> = None;
         for step in 1..=steps {

@@ -1,4 +1,4 @@
-//! How thick the body behind a facet is.
+//! Thickness of the body behind a facet.
 //!
 //! A contact surface is part of the skin of a body, and what is behind it by more than
 //! the body is thick there is not inside. A [`Fibre`] leads from the centre of a facet

@@ -58,7 +58,7 @@ pub(super) fn nearest([a, b, c]: &[Vec3; 3], x: &Vec3) -> ([f64; 3], Part) {
     ([of_a / sum, of_b / sum, of_c / sum], Part::Inside)
 }
 
-/// Which way a point passes through a triangle.
+/// Direction in which a point passes through a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Way {
     /// From the front to the back.
@@ -92,7 +92,7 @@ pub(super) fn passages(x: &[Vec3; 2], vertices: &[[Vec3; 3]; 2]) -> Vec<(f64, Wa
         .collect()
 }
 
-/// Whether `p` lies over the triangle `0 u v`.
+/// Returns whether `p` lies over the triangle `0 u v`.
 fn is_inside(p: &Vec3, u: &Vec3, v: &Vec3) -> bool {
     let n = u.cross(v);
     let twice_area = n.norm_squared();
@@ -101,7 +101,7 @@ fn is_inside(p: &Vec3, u: &Vec3, v: &Vec3) -> bool {
     s >= least && r >= least && s + r <= twice_area - least
 }
 
-/// Where `c0 + c1 t + c2 t^2 + c3 t^3` changes its sign in `[0, 1]`.
+/// Sign changes of `c0 + c1 t + c2 t^2 + c3 t^3` in `[0, 1]`.
 fn sign_changes(c: &[f64; 4]) -> Vec<(f64, Way)> {
     let f = |t: f64| ((c[3] * t + c[2]) * t + c[1]) * t + c[0];
     let mut ends = vec![0.0];

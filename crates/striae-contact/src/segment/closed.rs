@@ -49,7 +49,7 @@ impl<'a> Closed<'a> {
         }
     }
 
-    /// Whether the points of the rule are closed, too.
+    /// Returns whether the points of the rule are closed, too.
     pub(super) fn holds(&self) -> bool {
         let limit = self.pressing.least_limit();
         self.points(self.fan)

@@ -6,7 +6,7 @@
 
 use super::{plane_facet::Vec2, rule};
 
-/// How often a triangle is divided by four whose vertices are not all closed or all open.
+/// Number of times that a triangle with both closed and open vertices is divided into four.
 pub(super) const DIVISIONS: usize = 2;
 
 /// The points of a triangle: those of `rule` on it, or on the parts of it whose vertices are in

@@ -12,7 +12,7 @@ use super::{plane_facet::Vec2, polygon::Vertex};
 /// Sine of the turn at a corner below which it counts as flat.
 const FLAT: f64 = 1e-3;
 
-/// Where the triangles of a polygon meet.
+/// Common point of the triangles of a polygon.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Apex {
     /// In a corner.

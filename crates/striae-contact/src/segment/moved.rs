@@ -20,7 +20,7 @@ pub(super) struct Moved {
     vertices: Vec<[[f64; M]; 2]>,
 }
 
-/// What an integrand depends on at a point.
+/// Quantities that an integrand depends on at a point.
 pub(super) struct Integrand {
     /// Its value.
     pub value: [f64; M],

@@ -13,18 +13,18 @@ use super::plane_facet::Vec2;
 pub(super) struct Outline {
     /// Numbers of its corners in the facet, three or four.
     pub corners: Vec<usize>,
-    /// Where they are.
+    /// Positions of the vertices.
     pub places: Vec<Vec2>,
 }
 
-/// What a vertex of the common polygon is.
+/// Origin of a vertex of the common polygon.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Label {
     /// A corner of one side, numbered 0..8 with those of the second after the first's.
     Corner(usize),
     /// A corner of each side in one place: their middle.
     Both([usize; 2]),
-    /// Where an edge of each side crosses.
+    /// Crossing of an edge of each side.
     Crossing([CutEdge; 2]),
 }
 
@@ -67,9 +67,9 @@ pub const fn mixed(hash: u64, number: u64) -> u64 {
 /// A vertex of the common polygon.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Vertex {
-    /// Where it is.
+    /// Position of the vertex.
     pub place: Vec2,
-    /// What moves it.
+    /// Origin of the vertex, which determines how it moves.
     pub label: Label,
 }
 
@@ -93,6 +93,7 @@ impl Outline {
             let along = (window.places[window.after(edge)] - start).normalize();
             for corner in 0..self.len() {
                 let distance = along.perp(&(self.places[corner] - start));
+                // Exactly zero, so that all tests of one corner against one edge agree.
                 distances[corner][edge] = if distance.abs() <= tolerance {
                     0.0
                 } else {
@@ -119,6 +120,7 @@ pub(super) fn common(a: &Outline, b: &Outline, tolerance: f64) -> Vec<Vertex> {
     let mut alone = b.inside(&of_b, a);
     for i in a.inside(&of_a, b) {
         let (place, own) = (a.places[i], a.corners[i]);
+        // Both corners were snapped to the edges of the other by up to the tolerance each.
         let near = |j: &usize| (b.places[*j] - place).norm() <= 2.0 * tolerance;
         vertices.push(match alone.iter().position(near) {
             Some(found) => {
@@ -157,6 +159,7 @@ fn crossing(
     let (i_end, j_end) = (a.after(i), b.after(j));
     let [d, d_end] = [of_a[i][j], of_a[i_end][j]];
     let [e, e_end] = [of_b[j][i], of_b[j_end][i]];
+    // Strictly on both sides: where a corner lies on the edge, the corner itself is the vertex.
     if !(d * d_end < 0.0 && e * e_end < 0.0) {
         return None;
     }
@@ -190,6 +193,8 @@ fn in_order(vertices: Vec<Vertex>) -> Vec<Vertex> {
 
 /// Grows with the angle of a vector, from 0 to 4.
 fn direction(v: &Vec2) -> f64 {
+    // Monotone in the angle like `atan2`, but with exactly rounded operations only, which are the
+    // same on every machine.
     let along = v.x / (v.x.abs() + v.y.abs());
     if v.y >= 0.0 { 1.0 - along } else { 3.0 + along }
 }

@@ -23,7 +23,7 @@ const GAUSS_3: [(f64, f64); 3] = [
     (0.0, 8.0 / 9.0),
     (0.774_596_669_241_483_4, 5.0 / 9.0),
 ];
-/// The same with points at the ends.
+/// Rule with points at the ends of the interval.
 const LOBATTO_4: [(f64, f64); 4] = [
     (-1.0, 1.0 / 6.0),
     (-0.447_213_595_499_957_9, 5.0 / 6.0),

@@ -1,10 +1,9 @@
 //! Symmetric quadrature rules on a triangle.
 //!
-//! Degree 5 with 7 points: Radon, Monatsh. Math. 52 (1948). Degrees 6 and 8 with
-//! 12 and 16 points: Dunavant, Int. J. Numer. Methods Eng. 21 (1985),
-//! doi:10.1002/nme.1620210612, table II, solved anew to all digits. They treat the
-//! corners of the triangle alike, so that a sum does not depend on where a list of
-//! corners starts.
+//! Degree 5 with 7 points: Radon, Monatsh. Math. 52 (1948). Degrees 6 and 8 with 12 and 16 points:
+//! Dunavant, Int. J. Numer. Methods Eng. 21 (1985), doi:10.1002/nme.1620210612, table II, solved
+//! again to all digits. They treat the corners of the triangle alike, so that a sum does not depend
+//! on where a list of corners starts.
 
 /// Barycentric coordinates of a point and its weight; weights sum to one.
 pub(super) type Point = ([f64; 3], f64);
@@ -48,8 +47,8 @@ pub(super) static DEGREE_8: [Point; 16] = orbits(
     ]],
 );
 
-/// Exact to degree five, with points at the corners: Chin-Joe-Kong, Mulder & van Veldhuizen,
-/// J. Eng. Math. 35 (1999), doi:10.1023/A:1004420829610, solved anew to all digits.
+/// Exact to degree five, with points at the corners: Chin-Joe-Kong, Mulder & van Veldhuizen, J.
+/// Eng. Math. 35 (1999), doi:10.1023/A:1004420829610, solved again to all digits.
 pub(super) static VERTEX_5: [Point; 12] = orbits(
     &[],
     &[

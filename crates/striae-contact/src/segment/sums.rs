@@ -14,9 +14,9 @@ use super::plane_facet::{PlaneFacet, PlaneWeights, Vec2};
 
 /// Number of pairs `c <= d` of eight functions.
 pub(super) const PAIRS: usize = 36;
-/// Where pairs of one function of each side start.
+/// Start of the pairs of one function of each side.
 const MIXED: usize = 10;
-/// Where pairs of two functions of side `b` start.
+/// Start of the pairs of two functions of side `b`.
 const LAST: usize = 26;
 
 /// A number for each pair of functions.
@@ -95,7 +95,7 @@ pub(super) struct Triangle {
     pub indices: [usize; 3],
 }
 
-/// Adds the integrals over a triangle of all `N_c N_d`, and derivatives if asked for.
+/// Adds the integrals over a triangle of all `N_c N_d`, and derivatives if requested.
 #[inline(always)]
 pub(super) fn add_triangle(
     facets: &[PlaneFacet; 2],

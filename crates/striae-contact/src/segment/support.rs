@@ -1,4 +1,4 @@
-//! Supports of kept nodes on a segment, and what pressure on them comes to.
+//! Supports of kept nodes on a segment, and the effect of pressure on them.
 //!
 //! Notation and formulas are those of [`super::points`].
 
@@ -21,7 +21,7 @@ pub struct Support {
     pub full: f64,
 }
 
-/// What pressure is decided by, beside a segment.
+/// Data besides the segment that determine the pressure.
 #[derive(Clone, Debug)]
 pub struct Pressing {
     /// Supports of the kept nodes.
@@ -43,7 +43,7 @@ pub struct Pressed {
     pub rows: Vec<f64>,
     /// `int phi_k` over the points that are closed at the full bedding.
     pub closed: Vec<f64>,
-    /// Whether any point is closed, by support.
+    /// `true` for supports with a closed point.
     pub touches: Vec<bool>,
     /// Area under pressure.
     pub area: f64,
@@ -99,14 +99,14 @@ impl Pressing {
         self.supports.len()
     }
 
-    /// How many supports are closed at a point with these interpolation functions: which, as
-    /// those with the largest limits are.
+    /// Number of supports that are closed at a point with these interpolation functions. The number
+    /// determines them, as those with the largest limits close first.
     pub(super) fn state(&self, shares: &[f64; 8]) -> usize {
         let gap = self.gap(shares);
         self.limits.iter().filter(|limit| gap < **limit).count()
     }
 
-    /// Whether nothing presses, and no point with these functions is closed.
+    /// Returns whether no pressure acts and no point with these shape functions is closed.
     pub(super) fn is_idle(&self, mut points: impl Iterator<Item = [f64; 8]>) -> bool {
         let unpressed = |support: &Support| support.pressure == 0.0;
         self.supports.iter().all(unpressed) && points.all(|shares| self.state(&shares) == 0)
@@ -190,7 +190,7 @@ impl Pressing {
     }
 }
 
-/// How many sides have functions.
+/// Number of sides that have functions.
 fn sides(mass: &[[f64; 8]; 8]) -> f64 {
     let has = |first: usize| (first..first + 4).any(|c| mass[c][c] != 0.0);
     f64::from(u8::from(has(0)) + u8::from(has(4)))
@@ -242,7 +242,7 @@ impl Point {
     }
 }
 
-/// What a support has at a point.
+/// Values of a support at a point.
 pub(super) struct OfSupport {
     /// `phi_k`.
     pub phi: f64,

@@ -1,4 +1,4 @@
-//! What a basis is chosen from: overlaps and projections in one or two configurations.
+//! Input of the choice of a basis: overlaps and projections in one or two configurations.
 
 use std::collections::BTreeSet;
 
@@ -24,7 +24,7 @@ use crate::{
 /// Common area below which a patch is dropped, over the square of the smaller facet size.
 const SLIVER: f64 = 1e-3;
 
-/// What a basis is chosen from, in one or two configurations.
+/// Input of the choice of a basis, from one or two configurations.
 pub(super) struct Gathered {
     is_self_contact: bool,
     /// Facets of every overlap.
@@ -36,7 +36,7 @@ pub(super) struct Gathered {
 }
 
 impl Gathered {
-    /// What one configuration shows.
+    /// Overlaps and projections of one configuration.
     pub(super) fn new(configuration: &Configuration, scope: Scope) -> Self {
         let paired = paired_facets(configuration, scope, &|_| SegmentDerivatives::None, |_| {
             true

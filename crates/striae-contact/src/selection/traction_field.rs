@@ -25,12 +25,11 @@ pub struct Selection {
     pub basis: TractionBasis,
     /// Compliance `h/E` of the facets by side.
     pub compliances: [Vec<f64>; 2],
-    /// How far the two sides move towards each other in the increment, at most.
+    /// Largest approach of the two sides in the increment.
     pub depth: f64,
-    /// What is opposite to the kept nodes at the start, for collocated rows.
+    /// Points opposite to the kept nodes at the start, for collocated rows.
     pub partners: Vec<Option<Partner>>,
-    /// Overlap of the meshes at the nodes that is not pressed out yet, by side; empty where
-    /// there is none.
+    /// Overlap of the meshes at the nodes that is not removed yet, by side; empty if there is none.
     pub offsets: [Vec<f64>; 2],
     /// In which directions friction of the kept nodes is determined; empty where it is in all.
     pub slip_freedoms: Vec<SlipFreedom>,
@@ -44,19 +43,19 @@ impl Selection {
         &self.basis.kept
     }
 
-    /// Which nodes are kept.
+    /// Nodes that are kept.
     pub fn kept_nodes(&self) -> Kept {
         let index = self.basis.index.each_ref();
         index.map(|side| side.iter().map(Option::is_some).collect())
     }
 
-    /// Whether the node has unknowns.
+    /// Returns whether the node has unknowns.
     pub fn is_kept(&self, side: Side, node: SurfaceNode) -> bool {
         let index = self.basis.index[side].get(node.index());
         index.is_some_and(Option::is_some)
     }
 
-    /// Whether the node has a share in the traction field.
+    /// Returns whether the node has a share in the traction field.
     pub fn carries(&self, side: Side, node: SurfaceNode) -> bool {
         let row = self.basis.rows[side].get(node.index());
         row.is_some_and(|row| !row.is_empty())
@@ -97,6 +96,8 @@ impl Selection {
         });
         let ramp = own.unwrap_or(0.0) / self.weight(k);
         if flexibility > 0.0 {
+            // Scaling factors only: solutions do not depend on them, the path of the iterations
+            // does.
             [1.0 / (flexibility + ramp), 1.0 / (0.1 * flexibility + ramp)]
         } else {
             [0.0; 2]
@@ -124,7 +125,7 @@ impl Selection {
         &self.basis.coupling
     }
 
-    /// What was opposite to a kept node at the start.
+    /// Point opposite to a kept node at the start.
     pub fn partner(&self, k: usize) -> Option<Partner> {
         self.partners[k]
     }
@@ -146,12 +147,12 @@ impl Selection {
         })
     }
 
-    /// Whether overlaps of the meshes are being pressed out.
+    /// Returns whether initial overlaps of the meshes are being removed.
     pub fn has_offsets(&self) -> bool {
         self.offsets.iter().flatten().any(|offset| *offset > 0.0)
     }
 
-    /// What is added to the gap at a node along its own normal.
+    /// Offset of the gap at a node along its own normal.
     pub fn offset_along_normal(&self, side: Side, node: SurfaceNode) -> f64 {
         let fitted = self.fitted.as_ref();
         fitted.map_or_else(
@@ -160,13 +161,13 @@ impl Selection {
         )
     }
 
-    /// What is left of the overlap of the meshes at a node.
+    /// Part of the initial overlap that remains at a node.
     fn offset(&self, side: Side, node: SurfaceNode) -> f64 {
         let offset = self.offsets[side].get(node.index());
         offset.copied().unwrap_or(0.0)
     }
 
-    /// Which facets are paired.
+    /// Facets that are paired.
     pub fn scope(&self) -> Scope<'_> {
         Scope {
             compliances: &self.compliances,
@@ -174,7 +175,7 @@ impl Selection {
         }
     }
 
-    /// Whether facets of the two sides overlap.
+    /// Returns whether facets of the two sides overlap.
     pub fn overlaps(&self, configuration: &Configuration) -> bool {
         !paired_facets(
             configuration,
@@ -193,6 +194,8 @@ impl Selection {
         configuration: &Configuration,
     ) -> Vec<(Side, SurfaceNode)> {
         let scope = Scope {
+            // Bodies that approached faster than foreseen may already be deeper than the search of
+            // this increment.
             depth: self.depth.max(approach(start, configuration)),
             ..self.scope()
         };

@@ -1,4 +1,4 @@
-//! What holds on every flat pair: positivity, partition, symmetry, invariance.
+//! Properties that hold for every flat pair: positivity, partition of unity, symmetry, invariance.
 
 use std::collections::BTreeMap;
 
@@ -256,7 +256,7 @@ fn check_labels(pair: &Pair, seed: u64, swap: usize) -> Result<(), TestCaseError
     Ok(())
 }
 
-/// Whether both faces are the same to the last bit: then labels alone differ.
+/// Returns whether both faces are equal to the last bit, so that only labels distinguish them.
 fn are_alike(faces: &[Face; 2]) -> bool {
     faces[0].xs == faces[1].xs && faces[0].ys == faces[1].ys && faces[0].modulus == faces[1].modulus
 }
@@ -272,7 +272,7 @@ fn remember(pair: &mut Pair, basis: &TractionBasis) {
     }
 }
 
-/// Nodes that a repetition with memory keeps or drops anew.
+/// Nodes that a repetition with memory keeps or drops newly.
 fn flips(pair: &mut Pair) -> usize {
     let basis = TractionBasis::new(&pair.interface());
     remember(pair, &basis);

@@ -11,14 +11,14 @@ use crate::write::value::{list, number, text};
 /// Pieces of a smooth step between two points.
 const PIECES: usize = 20;
 
-/// How a condition comes to its value.
+/// Approach of a condition to its value.
 pub(super) struct Approach {
     pub(super) target: f64,
     /// The name of the curve, `None` for the ramp.
     pub(super) curve: Option<String>,
 }
 
-/// When a step is, and what conditions do where they have no amplitude.
+/// Period of a step, and the course of conditions without an amplitude.
 #[derive(Clone, Copy)]
 pub(super) struct Period {
     pub(super) start: f64,
@@ -27,7 +27,7 @@ pub(super) struct Period {
 }
 
 impl Model<'_> {
-    /// How a condition comes from a present value to a value with an amplitude.
+    /// Approach of a condition from a present value to a value with an amplitude.
     pub(super) fn approach(
         &mut self,
         amplitude: Option<&str>,

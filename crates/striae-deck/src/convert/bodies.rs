@@ -26,7 +26,7 @@ impl Instance<'_> {
         self.kinds.iter().any(|kind| kind.starts_with("C3D"))
     }
 
-    /// Whether it is a rigid surface of facets.
+    /// Returns whether it is a rigid surface of facets.
     pub(super) fn is_rigid(&self) -> bool {
         !self.is_solid() && self.kinds.iter().any(|kind| kind.starts_with("R3D"))
     }
@@ -240,8 +240,7 @@ impl<'a> Model<'a> {
                 if pieces > 1 {
                     let line = self.keywords.first().map_or(1, |keyword| keyword.line);
                     let what = format!(
-                        "the mesh has {pieces} pieces that are no element sets of their own; \
-                         they are one body"
+                        "the mesh has {pieces} pieces without element sets of their own; they become one body"
                     );
                     self.list(line, what);
                 }
@@ -269,7 +268,8 @@ impl<'a> Model<'a> {
             let is_used = self.bodies.iter().any(of_body);
             let made = card.card.as_ref().map_err(Clone::clone).and_then(|card| {
                 let made = cards::material(card)?;
-                let lines = law::material(&made).ok_or("no law of a deck")?;
+                let lines =
+                    law::material(&made).ok_or("without a counterpart among the laws of decks")?;
                 Ok((lines, card.density))
             });
             let line = at.map_or(0, |at| keywords[at].line);

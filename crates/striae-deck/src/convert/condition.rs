@@ -6,7 +6,7 @@ use crate::write::value::{list, number, text};
 use std::collections::{BTreeMap, BTreeSet};
 use striae_meshfile::Keyword;
 
-/// What a condition is on.
+/// Target of a condition.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Target {
     /// A body by place, and a node set.
@@ -26,11 +26,11 @@ pub(super) struct History {
     loads: BTreeMap<String, f64>,
 }
 
-/// What the keywords of a step state.
+/// Conditions stated by the keywords of a step.
 #[derive(Default)]
 pub(super) struct Stated {
     pub(super) prescribed: BTreeMap<Component, (f64, Option<String>)>,
-    /// Whether conditions that are not stated again end.
+    /// `true` if conditions that are not stated again end.
     pub(super) is_new: bool,
     pub(super) pressures: Vec<String>,
     pub(super) tractions: Vec<String>,
@@ -97,7 +97,8 @@ impl<'a> Model<'a> {
             };
             let targets = self.targets(word);
             if targets.is_empty() {
-                let what = format!("*BOUNDARY of `{word}`, which is on no body and no rigid body");
+                let what =
+                    format!("*BOUNDARY of `{word}`, which belongs to no body and no rigid body");
                 self.list(row.line, what);
             }
             for target in targets {
@@ -120,7 +121,7 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// What a word stands for.
+    /// Targets that a word refers to.
     fn targets(&mut self, word: &str) -> Vec<Target> {
         if let Some(rigid) = self.rigid_of_point(word) {
             return vec![Target::Rigid(rigid)];

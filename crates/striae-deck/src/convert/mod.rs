@@ -22,7 +22,7 @@ use striae_meshfile::{InputFile, Keyword, MeshFileError};
 pub struct Converted {
     /// Its text, with what has no counterpart in comments on top.
     pub deck: String,
-    /// What has no counterpart in the deck, each with its line.
+    /// Content without a counterpart in the deck, each item with its line.
     pub listed: Vec<String>,
 }
 
@@ -59,7 +59,7 @@ struct Model<'a> {
     steps: String,
     /// Lines of keywords of which something was made.
     used: BTreeSet<usize>,
-    /// What has no counterpart, by line.
+    /// Content without a counterpart, by line.
     listed: BTreeMap<usize, Vec<String>>,
 }
 
@@ -145,7 +145,7 @@ impl<'a> Model<'a> {
     }
 }
 
-/// Whether a parameter has a word for its value, in capital or small letters.
+/// Returns whether a parameter has a given word as its value, in any case.
 fn has(keyword: &Keyword<'_>, parameter: &str, word: &str) -> bool {
     let value = keyword.parameter(parameter);
     value.is_some_and(|value| value.eq_ignore_ascii_case(word))

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use striae_mesh::Vec3;
 use striae_meshfile::{InputFile, Keyword, Points};
 
-/// Which node a reference point is.
+/// Identity of a reference point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum PointId {
     /// One of the assembly, by number.

@@ -151,7 +151,7 @@ impl<'a> Model<'a> {
         }
         self.rigid = kept;
         for Rigid { line, name, .. } in left_out {
-            let what = "its nodes have conditions of their own and its point has none; left out";
+            let what = "its nodes have their own conditions and its point has none; left out";
             self.list(line, format!("`{name}`: {what}"));
         }
     }
@@ -237,7 +237,7 @@ impl<'a> Model<'a> {
                 (false, true) => {
                     self.list(
                         keyword.line,
-                        format!("*RIGID BODY of `{set}`, which is no whole body"),
+                        format!("*RIGID BODY of `{set}`, which is not a whole body"),
                     );
                 }
             }
@@ -247,7 +247,7 @@ impl<'a> Model<'a> {
         let sets: Vec<&str> = sets.filter_map(|key| keyword.parameter(key)).collect();
         let tied: Vec<(usize, String)> = sets.iter().flat_map(|set| self.nodes(set)).collect();
         match tied.is_empty() {
-            true => self.list(keyword.line, "*RIGID BODY of no nodes of a body"),
+            true => self.list(keyword.line, "*RIGID BODY without nodes of a body"),
             false => self
                 .rigid
                 .push(Rigid::new(keyword.line, name, Shape::Tied(tied), reference)),
@@ -451,7 +451,7 @@ impl<'a> Model<'a> {
                     .ok_or("a profile without length")?;
                 Ok((from, normal * side, keyword.line))
             }
-            _ => Err("an analytical surface that is no plane; mesh it with R3D4".to_owned()),
+            _ => Err("an analytical surface that is not a plane; mesh it with R3D4".to_owned()),
         }
     }
 }

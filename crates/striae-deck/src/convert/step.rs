@@ -7,7 +7,7 @@ use crate::write::value::{list, number, text};
 use std::collections::{BTreeMap, BTreeSet};
 use striae_meshfile::Keyword;
 
-/// What a step is but for its conditions.
+/// Procedure of a step, without its conditions.
 struct Procedure {
     period: Period,
     /// First, smallest and largest increment as fractions of it.
@@ -212,7 +212,7 @@ impl<'a> Model<'a> {
         groups.into_iter().map(entry).collect()
     }
 
-    /// What rigid bodies do: components without a condition are free.
+    /// Motions of rigid bodies: components without a condition are free.
     fn motions(
         &mut self,
         stated: &Stated,

@@ -88,8 +88,7 @@ fn lowered(raw: &raw::ActuationKind, faults: &mut FaultList<'_>) -> Option<Actua
             };
             let strain = strain_in_axes(components, axes.value.map(|axis| vector(&axis)));
             if strain.is_none() {
-                let place =
-                    "the axes of a strain, and what is left of the second beside the first,";
+                let place = "the axes of a strain, and the part of the second normal to the first,";
                 let place = place.to_owned();
                 faults.push(&axes.span, ModelFault::ZeroVector { place });
             }
@@ -115,7 +114,7 @@ fn lowered(raw: &raw::ActuationKind, faults: &mut FaultList<'_>) -> Option<Actua
 enum Line {
     /// Along a unit vector.
     Direction(Vec3),
-    /// Those of the material.
+    /// Fibres of the material.
     Fibres,
 }
 

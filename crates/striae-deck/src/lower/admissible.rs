@@ -3,7 +3,7 @@
 use crate::faults::{FaultList, Span};
 use striae_model::FaultKind as ModelFault;
 
-/// What was made, or `None` after the reason why not has been noted.
+/// Value that was made, or `None` after the reason for its absence has been noted.
 pub(super) fn admissible<T, E: ToString>(
     made: Result<T, E>,
     span: &Span,

@@ -20,7 +20,7 @@ struct RawBody {
     mesh: Option<Mesh>,
     /// The file of its mesh, as the deck states it.
     file: Option<String>,
-    /// What is made of this file.
+    /// Notes on parts of this file that were interpreted or replaced.
     notes: Vec<String>,
     material: Option<Material>,
     density: Option<f64>,
@@ -72,7 +72,7 @@ impl Bodies {
         self.bodies[body.0].mesh.as_ref()
     }
 
-    /// What is known of all bodies.
+    /// Known parts of all bodies.
     pub(super) fn drafts(&self) -> Vec<DraftBody<'_>> {
         let bodies = self.bodies.iter().map(|body| DraftBody {
             name: &body.name,
@@ -116,7 +116,7 @@ impl Bodies {
         )
     }
 
-    /// What is made of mesh files that they do not say.
+    /// Notes on parts of mesh files that were interpreted or replaced.
     pub(super) fn notes(&self) -> Vec<String> {
         // Bodies that are parts of one file have notes of it in common.
         let mut notes: Vec<(&RawBody, &String, Vec<String>)> = Vec::new();
@@ -240,7 +240,7 @@ fn file(raw: &raw::Body) -> Option<&raw::BodyFile> {
     }
 }
 
-/// What the mesh file says of materials, if the deck wants it.
+/// Materials stated by the mesh file, if the deck requests them.
 fn cards(reading: &Reading, raw: &raw::Body) -> Option<Cards> {
     let wanted = file(raw)?.materials.as_ref()?.value.0;
     wanted.then(|| Cards {

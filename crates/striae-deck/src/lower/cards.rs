@@ -25,22 +25,23 @@ use striae_mesh::Mesh;
 use striae_meshfile::{Card, Elasticity, MaterialCard, Moduli, SectionCard};
 use striae_solve::model::{BodySection, Formulation};
 
-/// What a mesh file says of materials.
+/// Materials stated by a mesh file.
 pub(super) struct Cards {
     pub(super) materials: Vec<MaterialCard>,
     pub(super) sections: Vec<SectionCard>,
 }
 
 impl Cards {
-    /// The sections of a body, or why there are none; `stated` is the formulation that the deck or the elements of the
-    /// file ask for.
+    /// The sections of a body, or why there are none; `stated` is the formulation that the deck or
+    /// the elements of the file request.
     pub(super) fn sections(
         &self,
         mesh: &Mesh,
         stated: Option<Formulation>,
     ) -> Result<Vec<BodySection>, String> {
         if self.sections.is_empty() {
-            let cause = "it gives no element set a material, as *SOLID SECTION of Abaqus does";
+            let cause =
+                "it assigns no material to an element set, as *SOLID SECTION of Abaqus does";
             return Err(cause.to_owned());
         }
         let sections = self.sections.iter();

@@ -14,7 +14,7 @@ use striae_solve::model::{BodyId, Curve, Displacement, Load, LoadExtent, LoadKin
 /// One component of one node of a body.
 type Freedom = (BodyId, NodeId, usize);
 
-/// Which components are prescribed after the steps so far.
+/// Components that are prescribed after the steps so far.
 #[derive(Default)]
 pub(super) struct History(BTreeSet<Freedom>);
 

@@ -13,7 +13,7 @@ use striae_surface::texture::Paint;
 pub(super) struct LoweredPair {
     /// The pair, without friction where that is faulty; `None` without its sides.
     pub(super) pair: Option<Pair>,
-    /// Whether its friction is known.
+    /// Completeness of its friction.
     pub(super) known: Known,
 }
 

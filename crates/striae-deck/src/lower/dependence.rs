@@ -1,6 +1,6 @@
-//! How coefficients of friction depend on pressure, slip rate and accumulated slip.
+//! Dependence of coefficients of friction on pressure, slip rate and accumulated slip.
 //!
-//! `None` where a constant could not be read, of which the fault has been noted.
+//! Results are `None` if a constant could not be read; its fault has been noted.
 
 use crate::{
     raw,

@@ -14,7 +14,7 @@ use striae_model::{Draft, Everything, Lowered, everything};
 use striae_solve::model::{ContactSurface, RigidId};
 use striae_surface::texture::Paint;
 
-/// The pairs, none where a deck does not ask for contact of everything; `None` after faults.
+/// The pairs, none if a deck does not request contact of everything; `None` after faults.
 pub(super) fn lowered(
     raw: &raw::Simulation,
     draft: &Draft<'_>,

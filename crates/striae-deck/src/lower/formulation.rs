@@ -3,7 +3,7 @@
 use crate::{raw, read::At};
 use striae_solve::model::Formulation;
 
-/// How elements take up strain, where that is stated.
+/// Formulation of elements, if it is stated.
 pub(super) fn formulation(stated: &Option<At<raw::Formulation>>) -> Option<Formulation> {
     stated.as_ref().map(|word| match word.value {
         raw::Formulation::Standard => Formulation::Standard,

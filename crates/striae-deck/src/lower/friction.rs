@@ -33,8 +33,7 @@ pub(crate) fn friction(
         None => Some(SlipDependence::default()),
     };
     if let (Some(_), Some(by_rate)) = (&raw.decay, &raw.by_slip_rate) {
-        let cause = "it has both `decay` and `by_slip_rate`; give either, a decay with more \
-                     constants is `by_slip_rate = { form = \"stribeck\", .. }`";
+        let cause = "it has both `decay` and `by_slip_rate`; give one of them; a decay with more constants is `by_slip_rate = { form = \"stribeck\", .. }`";
         faults.push(
             &by_rate.span,
             FaultKind::Friction {

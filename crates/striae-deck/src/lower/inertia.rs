@@ -8,7 +8,7 @@ use striae_solve::model::{Gravity, Mover, Procedure, RigidId, Velocity};
 
 const SPECTRAL_RADIUS: f64 = 0.8;
 
-/// Whether the step has inertia.
+/// Procedure of the step: with or without inertia.
 pub(super) fn procedure(raw: &raw::Step) -> Procedure {
     match &raw.dynamics {
         None => Procedure::QuasiStatic,
@@ -50,7 +50,7 @@ pub(super) fn velocities(
     })
 }
 
-/// What has a velocity.
+/// Part that a velocity is given to.
 fn mover(
     velocity: &At<raw::Velocity>,
     scope: &Scope<'_>,

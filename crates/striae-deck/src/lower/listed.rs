@@ -5,7 +5,7 @@ use crate::{faults::Span, read::At};
 /// Elements that could be lowered, in their order.
 pub(super) struct Listed<T> {
     pub(super) items: Vec<T>,
-    /// Where each of them is written.
+    /// Locations of each of them.
     pub(super) spans: Vec<Span>,
     written: usize,
 }
@@ -24,12 +24,12 @@ impl<T> Listed<T> {
         }
     }
 
-    /// Whether every element is known.
+    /// Returns whether every element is known.
     pub(super) fn whole(&self) -> bool {
         self.items.len() == self.written
     }
 
-    /// This list and another one behind it.
+    /// Appends another list.
     pub(super) fn and(mut self, other: Self) -> Self {
         self.items.extend(other.items);
         self.spans.extend(other.spans);

@@ -86,7 +86,7 @@ fn hardening(raw: &raw::Hardening) -> Option<Result<Hardening, InadmissibleHarde
     })
 }
 
-/// What all laws of rubber have beside their isochoric part.
+/// Properties common to all rubber laws, besides their isochoric part.
 type Common<'a> = (
     &'a Option<raw::Compressibility>,
     &'a Option<At<raw::Volumetric>>,

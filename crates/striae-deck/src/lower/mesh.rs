@@ -22,10 +22,9 @@ const RUN_BYTES: f64 = 15e3;
 /// Memory by formula over that which suffices.
 const UNCERTAIN: f64 = 1.5;
 
-/// The mesh of a body, with what there is to say about its file; `None` after its faults have been noted.
+/// Mesh of a body, with notes about its file; `None` after its faults have been noted.
 ///
-/// What generators and files give has been checked to be consistent and to
-/// have no inverted element.
+/// Meshes from generators and files have been checked for consistency and inverted elements.
 pub(super) fn body_mesh(
     raw: &At<raw::Mesh>,
     body: &str,
@@ -95,7 +94,7 @@ pub(super) fn surface(
     }
 }
 
-/// What is made of a part of a file, which may not be there.
+/// Mesh made of a part of a file, which may not be there.
 fn made_of_part<T>(
     read: Result<T, MeshFileError>,
     (file, part): (&Option<At<Text>>, Option<&At<Text>>),

@@ -52,7 +52,7 @@ use striae_model::{
 };
 use striae_solve::model::{Backend, Model, RigidSurface, Solver, Strategy, Tie};
 
-/// What the parts of a deck refer to by name.
+/// Parts that the rest of a deck refers to by name.
 struct Scope<'r> {
     bodies: &'r Bodies,
     rigid: &'r Names,
@@ -114,7 +114,7 @@ fn stated(raw: &raw::Simulation) -> impl Iterator<Item = String> {
     notes.into_iter().flatten()
 }
 
-/// What is wrong with the deck where there are no ranks.
+/// Faults of the deck if it is run without ranks.
 fn together(raw: &raw::Simulation, faults: &FaultList<'_>) -> Option<Box<Faults>> {
     let backend = raw.solver.as_ref()?.value.backend.as_ref()?;
     match backend.value {
@@ -129,7 +129,7 @@ struct Parts {
     rigid: Vec<Option<RigidSurface>>,
     pairs: Vec<LoweredPair>,
     ties: Vec<Option<Tie>>,
-    /// Pairs of contact of everything, none where it is not asked for; `None` after faults.
+    /// Pairs of contact of everything, none if it is not requested; `None` after faults.
     lowered: Option<Lowered>,
     steps: Vec<LoweredStep>,
 }
@@ -216,7 +216,7 @@ fn drafted<'a>(
 }
 
 impl Parts {
-    /// What is known of the model.
+    /// Known parts of the model.
     fn draft<'a>(&'a self, raw: &'a raw::Simulation, known: Known) -> Draft<'a> {
         let known = match self.lowered {
             Some(_) => known,
@@ -285,7 +285,7 @@ fn note(found: Vec<Fault>, raw: &raw::Simulation, places: &Places, faults: &mut 
     }
 }
 
-/// A name, empty where there is none that can be read.
+/// A name, empty if there is none that can be read.
 fn name(name: &Option<At<Text>>) -> &str {
     name.as_ref().map_or("", |name| &name.value.0)
 }

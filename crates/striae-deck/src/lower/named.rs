@@ -1,4 +1,4 @@
-//! Where the named parts of a deck are written.
+//! Locations of the named parts of a deck.
 
 use super::list;
 use crate::{

@@ -1,8 +1,8 @@
 //! Textures given at the nodes of a surface by a file.
 //!
-//! The file knows nodes by number: the numbers of the file the mesh was read from,
-//! or positions from 0 where it was generated or written in the deck. The paint has
-//! one direction for every node of the surface, in ascending order of their ids.
+//! The file identifies nodes by number: the numbers of the file the mesh was read from, or
+//! positions from 0 where it was generated or written in the deck. The paint has one direction for
+//! every node of the surface, in ascending order of their ids.
 
 use super::{list, surfaces::Surfaces};
 use crate::{fault::FaultKind, faults::FaultList, raw};

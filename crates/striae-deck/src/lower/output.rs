@@ -1,4 +1,4 @@
-//! What is written.
+//! Output of a run.
 
 use super::{body::Bodies, list};
 use crate::{
@@ -14,7 +14,7 @@ use striae_output::{
     section_cut,
 };
 
-/// What is written; without the table, the default.
+/// Output of a run; without the table, the default.
 pub(super) fn output(
     raw: Option<&At<raw::OutputSettings>>,
     bodies: &Bodies,

@@ -1,4 +1,4 @@
-//! Where in a deck the parts of a model are written: from paths to spans.
+//! Locations in a deck of the parts of a model: from paths to spans.
 
 use std::collections::BTreeMap;
 
@@ -7,10 +7,10 @@ use striae_model::{Origin, Path, Segment};
 use super::list;
 use crate::{faults::Span, raw, read::At, value::Text};
 
-/// Where the conditions of a step are written, by list.
+/// Locations of the conditions of a step, by list.
 pub(super) type ConditionSpans = BTreeMap<&'static str, Vec<Span>>;
 
-/// Where a step is written.
+/// Locations of a step.
 #[derive(Clone)]
 pub(super) struct StepSpans {
     pub(super) whole: Span,
@@ -25,8 +25,7 @@ pub(super) struct Places {
     pub(super) origins: Vec<Origin>,
 }
 
-/// Where the part of a model at a path is written; the start of the deck where that is
-/// nowhere in particular.
+/// Location of the part of a model at a path; the start of the deck if it is nowhere in particular.
 pub(super) fn span(path: &Path, raw: &raw::Simulation, places: &Places) -> Span {
     use Segment::{Field, Index};
     let Places { steps, origins } = places;

@@ -84,7 +84,9 @@ fn solid(
             striae_solve::solid::inertia(positions, facets, density.value.0)
                 .map_err(|error| error.to_string())
         }
-        RigidShape::Plane { .. } | RigidShape::Bare => Err("only a `mesh` has an inside".into()),
+        RigidShape::Plane { .. } | RigidShape::Bare => {
+            Err("only a `mesh` encloses a volume".into())
+        }
     };
     let fault = |cause| {
         let rigid = name.into();
@@ -120,7 +122,7 @@ fn inertia(
     }
 }
 
-/// What the rigid bodies do in a step.
+/// Motions of rigid bodies in a step.
 pub(super) fn motions(
     raw: &[At<raw::RigidMotion>],
     scope: &Scope<'_>,

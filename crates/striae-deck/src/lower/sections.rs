@@ -6,14 +6,14 @@ use striae_mesh::Mesh;
 use striae_model::FaultKind as ModelFault;
 use striae_solve::model::{BodySection, Formulation};
 
-/// What the sections of a body refer to.
+/// Parts that the sections of a body refer to.
 pub(super) struct Sections<'a> {
     pub(super) materials: &'a Materials,
-    /// What the elements of its mesh file ask for.
+    /// Formulation requested by the elements of its mesh file.
     pub(super) asked: Option<Formulation>,
     pub(super) mesh: &'a Mesh,
     pub(super) body: &'a str,
-    /// What the mesh file says of materials, if the deck wants it.
+    /// Materials stated by the mesh file, if the deck requests them.
     pub(super) cards: Option<Cards>,
 }
 

@@ -25,7 +25,7 @@ enum Definition<'r> {
     Elements(&'r raw::ElementSet),
 }
 
-/// What the members of a set are.
+/// Kind of the members of a set.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Kind {
     Node,

@@ -17,7 +17,7 @@ const SMALLEST_OVER_INITIAL: f64 = 1e-3;
 pub(super) struct LoweredStep {
     pub(super) step: Step,
     pub(super) known: Known,
-    /// Whether all displacement conditions are known.
+    /// Completeness of the displacement conditions.
     pub(super) displacements: Known,
     pub(super) spans: StepSpans,
 }

@@ -1,11 +1,11 @@
-//! What the sides of pairs and their textures refer to.
+//! Parts that the sides of pairs and their textures refer to.
 
 use super::body::Bodies;
 use crate::{names::Names, raw};
 use std::path::Path;
 use striae_solve::model::RigidSurface;
 
-/// What a side of a pair may refer to.
+/// Parts that a side of a pair may refer to.
 pub(super) struct Surfaces<'r> {
     pub(super) bodies: &'r Bodies,
     pub(super) rigid_names: &'r Names,

@@ -1,4 +1,4 @@
-//! Bodies that move themselves: strain and tension that a step gives them.
+//! Actuation of bodies: strain and tension that a step imposes on them.
 
 use crate::{
     declare::{either, table},
@@ -10,21 +10,22 @@ use crate::{
 use toml::de::DeValue;
 
 table! {
-    /// Strain without stress, or tension, that a body takes on of itself, from the present value to the target. Those of different kinds add up: `stretch` and `strain` are one kind but for `along = "fibres"`, `thermal_expansion` is another, and so is `tension` along each line.
+    /// Stress-free strain or tension of a body, from the present value to the target. Values of different kinds add up: `stretch` and `strain` are one kind except with `along = "fibres"`, `thermal_expansion` is another, and so is `tension` along each line.
     Actuation {
         /// Name of the body.
         required body: Text,
-        /// Element set of the section of it that is actuated. Default: all of the body.
+        /// Element set of the actuated section. Default: the whole body.
         optional section: Text,
-        /// The strain or tension that it takes on.
+        /// The strain or tension imposed.
         include kind: ActuationKind,
-        /// How the target is approached: `ramp`, `constant`, `smooth` or the name of a curve. Default: `ramp`.
+        /// Curve towards the target: `ramp`, `constant`, `smooth` or the name of a curve. Default:
+        /// `ramp`.
         optional curve: Text,
     }
 }
 
 either! {
-    /// A strain or tension that a body takes on of itself.
+    /// A strain or tension imposed on a body.
     ActuationKind {
         Stretch(Stretch),
         Strain(StressFreeStrain),
@@ -34,27 +35,31 @@ either! {
 }
 
 table! {
-    /// Lines that become longer without stress.
+    /// Lines that lengthen without stress.
     Stretch {
-        /// Target of the strain `s` without stress, above -1: lengths at rest grow by the factor `1 + s`.
+        /// Target of the stress-free strain `s`, above -1: lengths at rest grow by the factor `1 +
+        /// s`.
         required stretch: Number,
-        /// Lines that grow: a direction at rest of any length, or `fibres`, those of the material. Default: all, in all directions.
+        /// Lines that grow: a direction at rest of any length, or `fibres` for those of the
+        /// material. Default: lines in all directions.
         optional along: Lines,
     }
 }
 
 table! {
-    /// A tensor of strain without stress.
+    /// A tensor of stress-free strain.
     StressFreeStrain {
-        /// Target of the components `xx`, `yy`, `zz`, `xy`, `yz`, `zx` of the strain without stress; its principal values are above -1.
+        /// Target of the components `xx`, `yy`, `zz`, `xy`, `yz`, `zx` of the stress-free strain;
+        /// its principal values are above -1.
         required strain: [Number; 6],
-        /// First axis of the components, and a vector that gives the second one with it. Default: those of the model.
+        /// First axis of the components, and a vector that determines the second one. Default:
+        /// those of the model.
         optional axes: [[Number; 3]; 2],
     }
 }
 
 table! {
-    /// Expansion by temperature.
+    /// Thermal expansion.
     ThermalExpansion {
         /// Coefficient of thermal expansion: strain per change of temperature.
         required thermal_expansion: Number,
@@ -64,11 +69,12 @@ table! {
 }
 
 table! {
-    /// A tension that the body has of itself, as muscles have.
+    /// Active tension of a body, as of muscles.
     ActiveTension {
         /// Target of the force per area at rest with which lines pull.
         required tension: Number,
-        /// Lines that pull: a direction at rest of any length, or `fibres`, those of the material.
+        /// Lines that pull: a direction at rest of any length, or `fibres` for those of the
+        /// material.
         required along: Lines,
     }
 }

@@ -14,45 +14,50 @@ table! {
     Body {
         /// Unique name.
         required name: Text,
-        /// Name of its material, where no section is. Default: none; then every element must be in a section.
+        /// Name of its material outside of sections. Default: none; then every element must be in a
+        /// section.
         optional material: Text,
         /// Its mesh, read from a file or generated.
         required mesh: Mesh,
         /// Parts of other materials.
         optional sections: Vec<At<BodySection>>,
-        /// How its elements, but for those of sections, take up strain. Default: what elements of Abaqus with an `H` (`mean-dilatation`) or `I` (`assumed-strain`) ask for, `mean-dilatation` where Poisson's ratio is above 0.45 or the material yields, else `standard`.
+        /// Formulation of its elements outside of sections. Default: the one that elements of
+        /// Abaqus with an `H` (`mean-dilatation`) or `I` (`assumed-strain`) request,
+        /// `mean-dilatation` if Poisson's ratio is above 0.45 or the material yields, else
+        /// `standard`.
         optional formulation: Formulation,
         /// Mass of the nodes of its contact surfaces in dynamic steps. Default: `consistent`.
         optional contact_mass: ContactMass,
-        /// More sets of nodes.
+        /// Additional sets of nodes.
         optional node_sets: Vec<At<NodeSet>>,
-        /// More sets of facets.
+        /// Additional sets of facets.
         optional facet_sets: Vec<At<FacetSet>>,
-        /// More sets of elements.
+        /// Additional sets of elements.
         optional element_sets: Vec<At<ElementSet>>,
     }
 }
 
 table! {
-    /// Elements of a body that are of a material of their own.
+    /// Elements of a body with their own material.
     BodySection {
         /// Name of the element set; no element is in two sections.
         required elements: Text,
         /// Name of their material.
         required material: Text,
-        /// How they take up strain. Default: what elements of Abaqus with an `H` or `I` ask for, else what suits their material, as for bodies.
+        /// Formulation of these elements. Default: the one that elements of Abaqus with an `H` or
+        /// `I` request, else the one that suits their material, as for bodies.
         optional formulation: Formulation,
     }
 }
 
 words! {
-    /// How elements take up strain.
+    /// Formulation of elements.
     Formulation {
-        /// By displacements alone; locks where volumes can hardly change.
+        /// Displacements alone; locks if the material is nearly incompressible.
         Standard = "standard",
-        /// With pressure and volume constant in the element; linear tetrahedra lock also with it.
+        /// Pressure and volume constant in the element; linear tetrahedra lock even so.
         MeanDilatation = "mean-dilatation",
-        /// With a deformation gradient of hexahedra that is enhanced for bending; other elements as `standard`.
+        /// Deformation gradient of hexahedra enhanced for bending; other elements as `standard`.
         AssumedStrain = "assumed-strain",
     }
 }
@@ -60,21 +65,22 @@ words! {
 words! {
     /// Mass of the nodes of contact surfaces.
     ContactMass {
-        /// What the consistent mass matrix gives them.
+        /// Mass from the consistent mass matrix.
         Consistent = "consistent",
-        /// None: it is moved to the nodes behind, against oscillations of contact.
+        /// No mass: it is moved to the nodes behind, to avoid oscillations of contact.
         Redistributed = "redistributed",
     }
 }
 
 table! {
-    /// A rigid body: a surface to touch, or what nodes are tied to.
+    /// A rigid body: a surface to touch, or a body that nodes are tied to.
     Rigid {
         /// Unique name.
         required name: Text,
         /// Its shape.
         include shape: RigidShape,
-        /// Point about which it turns, and centre of a given `mass`. Default: the centre of the mass with `density`, else the origin.
+        /// Point about which it rotates, and centre of a given `mass`. Default: the centre of mass
+        /// with `density`, else the origin.
         optional reference: [Number; 3],
         /// Density of the solid inside a closed `mesh`, from which mass, centre and moments of inertia follow. Default: none.
         optional density: Positive,
@@ -97,7 +103,7 @@ either! {
 table! {
     /// An unbounded plane.
     RigidPlane {
-        /// The plane by a point of it and its normal.
+        /// The plane, given by a point and its normal.
         required plane: Plane,
     }
 }

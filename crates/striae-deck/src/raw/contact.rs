@@ -1,4 +1,4 @@
-//! `[[pair]]` and its friction, `[[tie]]`.
+//! `[[pair]]` with its friction, and `[[tie]]`.
 
 use super::{ByAccumulatedSlip, ByPressure, BySlipRate, Decay, Texture};
 use crate::{
@@ -21,32 +21,44 @@ table! {
         required b: SecondSide,
         /// Friction from the start; steps may change it. Default: frictionless.
         optional friction: Friction,
-        /// How contact is enforced. Default: `weighted`.
+        /// Enforcement of contact. Default: `weighted`.
         optional enforcement: Enforcement,
-        /// Distance over which contact is looked for ahead. It bears on the cost, not on the
-        /// result. Default: half the local facet size.
+        /// Distance within which contact is searched. It affects the cost, not the result. Default:
+        /// half the local facet size.
         optional search_distance: Positive,
-        /// What is made of gaps and overlaps of the meshes before anything has moved: `as-meshed` takes gaps as they are and refuses overlaps of more than 2 % of the local facet size; `close` moves nodes without strain until overlaps are gone, and gaps of up to a tenth of the local facet size or up to the one that is given; `resolve` presses overlaps out in the course of the first step. Default: `as-meshed`.
+        /// Treatment of gaps and overlaps of the meshes before any motion: `as-meshed` keeps gaps
+        /// and refuses overlaps of more than 2 % of the local facet size; `close` moves nodes
+        /// without strain until overlaps are gone, and closes gaps of up to a tenth of the local
+        /// facet size or up to a given size; `resolve` removes overlaps gradually during the first
+        /// step, which strains the bodies. Default: `as-meshed`.
         optional initial: Initial,
-        /// Interference of a press fit, a length: the two sides are taken as touching at the start where they face each other within the search distance or overlap, whatever the gap between their facets is, and are then pressed apart by this much in the course of the first step. Negative for a clearance. Default: none, gaps are those of the meshes.
+        /// Interference of a press fit, a length: where the two sides face each other within the
+        /// search distance or overlap, they count as touching at the start, whatever the gap
+        /// between their facets, and are then pressed apart by this much in the course of the first
+        /// step. Negative for a clearance. Default: none, gaps are those of the meshes.
         optional interference: Interference,
-        /// Whether viscous forces between the sides carry bodies that nothing else holds across a gap, in steps without inertia. They fall to zero in the course of each step. Default: false.
+        /// `true`: viscous forces between the sides carry bodies without other restraints across a
+        /// gap, in steps without inertia. They fall to zero in the course of each step. Default:
+        /// false.
         optional stabilise: Truth,
-        /// Dihedral angle in degrees from which on an edge separates faces: nodes there have a normal and a traction for each of them. Default: one for all faces at a node.
+        /// Dihedral angle in degrees from which on an edge separates faces: nodes there have a
+        /// normal and a traction for each face. Default: nodes have one normal for all their faces.
         optional feature_angle: Angle,
     }
 }
 
 table! {
-    /// Two surfaces of bodies that are glued from the start; their meshes need not match.
+    /// Two surfaces of bodies, glued together from the start; their meshes need not match.
     BodyTie {
         /// Unique name.
         required name: Text,
         /// First side.
         required a: DeformableSide,
-        /// Second side. Which of them is which does not matter.
+        /// Second side. The order of the two does not matter.
         required b: DeformableSide,
-        /// Distance up to which facets that face each other are tied; others are free. Default: a tenth of the facet size, and facets from there up to half of it apart are a fault.
+        /// Distance up to which facets that face each other are tied; others are free. Default: a
+        /// tenth of the facet size; facets between that distance and half of the facet size apart
+        /// are then a fault.
         optional within: Positive,
     }
 }
@@ -65,7 +77,8 @@ table! {
     InterferenceAlong {
         /// Interference at the end of the first step, kept from there on.
         required value: Number,
-        /// How it is approached in the first step: `ramp`, `constant`, `smooth` or the name of a curve. Default: `ramp`.
+        /// Curve of the approach in the first step: `ramp`, `constant`, `smooth` or the name of a
+        /// curve. Default: `ramp`.
         optional curve: Text,
     }
 }
@@ -83,23 +96,23 @@ impl Read for Interference {
     }
 }
 
-/// What is made of gaps and overlaps of the meshes.
+/// Treatment of gaps and overlaps of the meshes.
 #[derive(Clone, Debug)]
 pub(crate) enum Initial {
     /// One of a few treatments.
     Word(InitialWord),
-    /// Gaps are closed up to a given one.
+    /// Gaps are closed up to a given size.
     Close(CloseGaps),
 }
 
 words! {
-    /// What is made of gaps and overlaps of the meshes.
+    /// Treatment of gaps and overlaps of the meshes.
     InitialWord {
-        /// Gaps are as they are, overlaps a fault.
+        /// Gaps remain, overlaps are a fault.
         AsMeshed = "as-meshed",
         /// Nodes are moved without strain.
         Close = "close",
-        /// Overlaps are pressed out in the course of the first step.
+        /// Overlaps are removed gradually in the course of the first step.
         Resolve = "resolve",
     }
 }
@@ -129,14 +142,14 @@ impl Read for Initial {
 /// The second side of a pair.
 #[derive(Clone, Debug)]
 pub(crate) enum SecondSide {
-    /// The first one once more.
+    /// The first side itself.
     Itself,
-    /// Another one.
+    /// Another side.
     Other(Box<Side>),
 }
 
 words! {
-    /// The first side once more.
+    /// The first side, as the second one.
     SameSide {
         /// Facets of side `a` that may touch each other.
         Itself = "itself",
@@ -206,11 +219,11 @@ table! {
 }
 
 words! {
-    /// How contact is enforced.
+    /// Enforcement of contact.
     Enforcement {
         /// Both sides share one traction field; gaps and slips are means weighted with it.
         Weighted = "weighted",
-        /// Each side has a field of its own; gaps and slips are those at nodes (Jones & Papadopoulos).
+        /// Each side has its own field; gaps and slips are those at nodes (Jones & Papadopoulos).
         Collocated = "collocated",
     }
 }
@@ -224,11 +237,12 @@ table! {
         optional shear_cap: Positive,
         /// Decay of all coefficients with the rate of slip. Default: none.
         optional decay: Decay,
-        /// How all coefficients depend on the pressure. Default: they do not.
+        /// Dependence of all coefficients on the pressure. Default: none.
         optional by_pressure: ByPressure,
-        /// How all coefficients depend on the rate of slip; in place of `decay`. Default: they do not.
+        /// Dependence of all coefficients on the slip rate; replaces `decay`. Default: none.
         optional by_slip_rate: BySlipRate,
-        /// How all coefficients depend on the slip that a point of a surface has accumulated since the start of the run. Default: they do not.
+        /// Dependence of all coefficients on the slip that a point of a surface has accumulated
+        /// since the start of the run. Default: none.
         optional by_accumulated_slip: ByAccumulatedSlip,
     }
 }
@@ -246,7 +260,7 @@ choice! {
 }
 
 table! {
-    /// No friction.
+    /// Frictionless contact.
     Frictionless {}
 }
 

@@ -14,7 +14,7 @@ table! {
 }
 
 choice! {
-    /// How the coefficients depend on the pressure.
+    /// Dependence of the coefficients on the pressure.
     ByPressure by form {
         "power-law" => PowerLaw(PowerLaw),
         "adhesion" => Adhesion(Adhesion),
@@ -28,9 +28,10 @@ table! {
     PowerLaw {
         /// `m`, below 1 for coefficients that fall with the pressure; 2/3 for one elastic contact.
         required exponent: Positive,
-        /// `p0`, the pressure at which the coefficients are those that the law states.
+        /// `p0`, the pressure at which the coefficients are those stated by the law.
         required pressure: Positive,
-        /// Pressure below which, for `m` below 1, friction goes to zero along a parabola, with a finite slope. Default: `p0/1000`.
+        /// Pressure below which, for `m` below 1, friction falls to zero along a parabola, with a
+        /// finite slope. Default: `p0/1000`.
         optional floor: Positive,
     }
 }
@@ -40,15 +41,16 @@ table! {
     Adhesion {
         /// `p_ad`.
         required pressure: Positive,
-        /// Pressure below which friction goes to zero along a parabola, with a finite slope. Default: `p_ad/20`.
+        /// Pressure below which friction falls to zero along a parabola, with a finite slope.
+        /// Default: `p_ad/20`.
         optional floor: Positive,
     }
 }
 
 table! {
-    /// Friction `tau tanh(mu p/tau)`, which comes smoothly to a shear stress.
+    /// Friction `tau tanh(mu p/tau)`, which approaches a shear stress smoothly.
     Saturation {
-        /// `tau`. The coefficients that the law states are those of low pressures.
+        /// `tau`. The coefficients stated by the law are those of low pressures.
         required shear_stress: Positive,
     }
 }
@@ -64,7 +66,7 @@ table! {
 }
 
 choice! {
-    /// How the coefficients depend on the slip rate.
+    /// Dependence of the coefficients on the slip rate.
     BySlipRate by form {
         "stribeck" => Stribeck(Stribeck),
         "logarithm" => Logarithm(Logarithm),
@@ -93,7 +95,8 @@ table! {
         required factor: Number,
         /// `v_0`, length per time.
         required slip_rate: Positive,
-        /// Slip rate from which on the coefficients are constant; needed where they fall. Default: none.
+        /// Slip rate from which on the coefficients are constant; required if they fall. Default:
+        /// none.
         optional limit: Positive,
     }
 }
@@ -109,7 +112,7 @@ table! {
 }
 
 choice! {
-    /// How the coefficients depend on the accumulated slip.
+    /// Dependence of the coefficients on the accumulated slip.
     ByAccumulatedSlip by form {
         "exponential" => Exponential(ExponentialRunningIn),
         "table" => Table(SlipTable),

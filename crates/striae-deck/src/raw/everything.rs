@@ -10,17 +10,22 @@ use crate::{
 table! {
     /// Contact of every surface with every surface: all skins of bodies and all rigid surfaces with each other, and each body with itself. A surface has a label: the name of a body, that of a rigid surface, or that of a body and of one of its facet sets, such as `tread.zmin`.
     Contact {
-        /// Whether everything may touch everything. What a `pair` lets touch is left to it, and tied facets are left out. `false`: only what `pair` names.
+        /// `true`: everything may touch everything. Surfaces joined by a `pair` keep the settings
+        /// of that pair, and tied facets are left out. `false`: only surfaces named by a `pair` may
+        /// touch.
         required all: Truth,
-        /// Friction where `between` says nothing; steps may change it, by names of pairs that are made of labels, such as `tread-road` and `tread-tread`. Default: frictionless.
+        /// Friction of surfaces not named in `between`; steps may change it, by names of pairs that
+        /// are made of labels, such as `tread-road` and `tread-tread`. Default: frictionless.
         optional friction: Friction,
         /// Surfaces that do not touch.
         optional exclude: Vec<At<Excluded>>,
-        /// Friction of two surfaces. Of several statements about the same facets, here and in `exclude`, the narrowest counts.
+        /// Friction of two surfaces. If several statements concern the same facets, here and in
+        /// `exclude`, the narrowest applies.
         optional between: Vec<At<Between>>,
         /// Textures.
         optional surface: Vec<At<PaintedSurface>>,
-        /// Dihedral angle in degrees from which on an edge separates faces: nodes there have a normal and a traction for each of them. Default: 45.
+        /// Dihedral angle in degrees from which on an edge separates faces: nodes there have a
+        /// normal and a traction for each face. Default: 45.
         optional feature_angle: Angle,
         /// As in `pair`.
         optional search_distance: Positive,
@@ -36,7 +41,7 @@ table! {
     Excluded {
         /// Label of a surface.
         required a: Text,
-        /// Label of what it does not touch, itself if it is the same. Default: anything.
+        /// Label of the surface that it does not touch, or its own. Default: any surface.
         optional b: Text,
     }
 }
@@ -46,7 +51,7 @@ table! {
     Between {
         /// Label of a surface.
         required a: Text,
-        /// Label of what it touches, itself if it is the same.
+        /// Label of the surface that it touches, or its own.
         required b: Text,
         /// Friction from the start; steps may change it.
         required friction: Friction,

@@ -9,15 +9,15 @@ use crate::value::{NonNegative, Number, Positive};
 table! {
     /// A family of fibres.
     Fibres {
-        /// How they take up stretch.
+        /// Stiffness of the fibres.
         include stiffness: FibreStiffness,
-        /// Where they point at rest, in the middle of each element.
+        /// Direction at rest, evaluated at the centre of each element.
         required direction: FibreDirection,
     }
 }
 
 either! {
-    /// How fibres take up stretch.
+    /// Stiffness of fibres.
     FibreStiffness {
         Exponential(ExponentialFibres),
         Linear(LinearFibres),
@@ -25,19 +25,19 @@ either! {
 }
 
 table! {
-    /// Stiffer the more they are stretched, slack in compression: energy `k1/(2 k2) (exp(k2 E^2) - 1)` where their strain `E` is positive.
+    /// Stiffening in tension, slack in compression: energy `k1/(2 k2) (exp(k2 E^2) - 1)` if their strain `E` is positive.
     ExponentialFibres {
         /// Modulus.
         required k1: Positive,
-        /// How fast they stiffen.
+        /// Exponent of stiffening.
         required k2: NonNegative,
-        /// From 0, all along the direction, to 1/3, in all directions. Default: 0.
+        /// Dispersion, from 0, all along the direction, to 1/3, in all directions. Default: 0.
         optional dispersion: NonNegative,
     }
 }
 
 table! {
-    /// In tension and compression: energy `M/8 (I4 - 1)^2` of the square `I4` of their stretch.
+    /// Linear in tension and compression: energy `M/8 (I4 - 1)^2` of the square `I4` of their stretch.
     LinearFibres {
         /// Modulus `M` that the family adds along its direction at rest.
         required modulus: Positive,
@@ -45,7 +45,7 @@ table! {
 }
 
 either! {
-    /// Where fibres point at rest.
+    /// Direction of fibres at rest.
     FibreDirection {
         Uniform(UniformFibres),
         Circumferential(CircumferentialFibres),
@@ -63,27 +63,29 @@ table! {
 }
 
 table! {
-    /// Around an axis by the right-hand rule.
+    /// Circles about an axis by the right-hand rule.
     CircumferentialFibres {
         /// The axis.
         required circumferential: Axis,
-        /// Angle in degrees by which they are turned about the radius, counter-clockwise seen from outside. Default: 0.
+        /// Angle in degrees by which they are rotated about the radius, counter-clockwise seen from
+        /// outside. Default: 0.
         optional turn: Number,
     }
 }
 
 table! {
-    /// Along an axis.
+    /// Parallels of an axis.
     AxialFibres {
         /// The axis.
         required axial: Axis,
-        /// Angle in degrees by which they are turned about the radius, counter-clockwise seen from outside. Default: 0.
+        /// Angle in degrees by which they are rotated about the radius, counter-clockwise seen from
+        /// outside. Default: 0.
         optional turn: Number,
     }
 }
 
 table! {
-    /// Away from an axis.
+    /// Rays away from an axis.
     RadialFibres {
         /// The axis.
         required radial: Axis,

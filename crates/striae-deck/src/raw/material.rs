@@ -12,9 +12,10 @@ table! {
     Material {
         /// Unique name.
         required name: Text,
-        /// Mass per volume at rest. Needed where there is inertia or gravity.
+        /// Mass per volume at rest. Required for inertia and gravity.
         optional density: Positive,
-        /// Families of fibres in a neo-Hookean solid or in rubber that does not relax. Default: none.
+        /// Families of fibres in a neo-Hookean solid or in rubber without relaxation. Default:
+        /// none.
         optional fibres: Vec<At<Fibres>>,
         /// Law and elastic constants.
         include law: BulkLaw,
@@ -47,7 +48,7 @@ words! {
 }
 
 either! {
-    /// How far rubber changes its volume.
+    /// Compressibility of rubber.
     Compressibility {
         BulkModulus(BulkModulus),
         Ratio(Ratio),
@@ -89,7 +90,8 @@ table! {
         include compressibility: Compressibility,
         /// Form of the volumetric energy. Default: `quadratic`.
         optional volumetric: Volumetric,
-        /// Branches whose stress relaxes, beside the law, which is that of slow deformations. Default: none.
+        /// Branches with relaxing stress in parallel to the law, which describes slow deformations.
+        /// Default: none.
         optional relaxation: Vec<At<Branch>>,
     }
 }
@@ -105,7 +107,8 @@ table! {
         include compressibility: Compressibility,
         /// Form of the volumetric energy. Default: `quadratic`.
         optional volumetric: Volumetric,
-        /// Branches whose stress relaxes, beside the law, which is that of slow deformations. Default: none.
+        /// Branches with relaxing stress in parallel to the law, which describes slow deformations.
+        /// Default: none.
         optional relaxation: Vec<At<Branch>>,
     }
 }
@@ -123,7 +126,8 @@ table! {
         include compressibility: Compressibility,
         /// Form of the volumetric energy. Default: `quadratic`.
         optional volumetric: Volumetric,
-        /// Branches whose stress relaxes, beside the law, which is that of slow deformations. Default: none.
+        /// Branches with relaxing stress in parallel to the law, which describes slow deformations.
+        /// Default: none.
         optional relaxation: Vec<At<Branch>>,
     }
 }
@@ -137,7 +141,8 @@ table! {
         include compressibility: Compressibility,
         /// Form of the volumetric energy. Default: `quadratic`.
         optional volumetric: Volumetric,
-        /// Branches whose stress relaxes, beside the law, which is that of slow deformations. Default: none.
+        /// Branches with relaxing stress in parallel to the law, which describes slow deformations.
+        /// Default: none.
         optional relaxation: Vec<At<Branch>>,
     }
 }
@@ -153,7 +158,7 @@ table! {
 }
 
 table! {
-    /// Rubber whose chains have a finite length: energy `-G Jm/2 ln(1 - (I1 - 3)/Jm)`, nearly incompressible.
+    /// Rubber with chains of finite length: energy `-G Jm/2 ln(1 - (I1 - 3)/Jm)`, nearly incompressible.
     Gent {
         /// Shear modulus `G`.
         required shear_modulus: Positive,
@@ -163,13 +168,14 @@ table! {
         include compressibility: Compressibility,
         /// Form of the volumetric energy. Default: `quadratic`.
         optional volumetric: Volumetric,
-        /// Branches whose stress relaxes, beside the law, which is that of slow deformations. Default: none.
+        /// Branches with relaxing stress in parallel to the law, which describes slow deformations.
+        /// Default: none.
         optional relaxation: Vec<At<Branch>>,
     }
 }
 
 table! {
-    /// Rubber by the eight-chain model, its first five terms, nearly incompressible.
+    /// Rubber by the first five terms of the eight-chain model, nearly incompressible.
     ArrudaBoyce {
         /// Modulus `mu`, near the shear modulus at rest.
         required mu: Positive,
@@ -179,15 +185,16 @@ table! {
         include compressibility: Compressibility,
         /// Form of the volumetric energy. Default: `quadratic`.
         optional volumetric: Volumetric,
-        /// Branches whose stress relaxes, beside the law, which is that of slow deformations. Default: none.
+        /// Branches with relaxing stress in parallel to the law, which describes slow deformations.
+        /// Default: none.
         optional relaxation: Vec<At<Branch>>,
     }
 }
 
 table! {
-    /// A spring and a dashpot in series. Where other programs state the share `g` of the modulus of sudden deformations, the ratio is `g/(1 - sum of all g)`.
+    /// A spring and a dashpot in series. If another program states the share `g` of the modulus of sudden deformations, the ratio is `g/(1 - sum of all g)`.
     Branch {
-        /// Modulus over that of slow deformations.
+        /// Ratio of its modulus to that of slow deformations.
         required ratio: Positive,
         /// Relaxation time, in the unit of the durations of steps.
         required time: Positive,
@@ -195,7 +202,7 @@ table! {
 }
 
 table! {
-    /// Metal that yields by von Mises' rule, for large strains, with isotropic hardening.
+    /// Metal with von Mises plasticity and isotropic hardening, for large strains.
     ElasticPlastic {
         /// Elastic constants.
         include constants: ElasticConstants,
@@ -235,7 +242,7 @@ table! {
 }
 
 table! {
-    /// Straight lines.
+    /// Straight lines between points.
     HardeningTable {
         /// Pairs of equivalent plastic strain, from 0 on, and yield stress, which must not fall; the last stress holds beyond.
         required yield_table: Vec<At<[Number; 2]>>,

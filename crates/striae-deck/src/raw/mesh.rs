@@ -20,9 +20,11 @@ table! {
     BodyFile {
         /// Path relative to the deck.
         required file: Text,
-        /// The part of the file that the body is: an element set, a physical volume of Gmsh, or an instance of Abaqus. Its sets are restricted to it. Default: all of it.
+        /// The part of the file that makes up the body: an element set, a physical volume of Gmsh,
+        /// or an instance of Abaqus. Sets are restricted to it. Default: the whole file.
         optional elements: Text,
-        /// Whether elements are of the materials that the file gives them, by `*SOLID SECTION` of Abaqus. Default: `false`.
+        /// `true`: elements have the materials that the file assigns to them, by `*SOLID SECTION`
+        /// of Abaqus. Default: `false`.
         optional materials: Truth,
     }
 }
@@ -32,7 +34,8 @@ table! {
     MeshFile {
         /// Path relative to the deck.
         required file: Text,
-        /// The part of an Abaqus file that the surface is: an element set or an instance. Default: all its facets.
+        /// The part of an Abaqus file that makes up the surface: an element set or an instance.
+        /// Default: all facets.
         optional elements: Text,
     }
 }
@@ -42,7 +45,9 @@ table! {
     InlineMesh {
         /// Positions of the nodes.
         required positions: Vec<At<[Number; 3]>>,
-        /// Corners of the elements, nodes counted from 0 and ordered as Abaqus and Gmsh do: eight of a hexahedron, six of a wedge, five of a pyramid, four of a tetrahedron, ten of one with nodes on its edges.
+        /// Corners of the elements, with nodes counted from 0 and ordered as in Abaqus and Gmsh:
+        /// eight of a hexahedron, six of a wedge, five of a pyramid, four of a tetrahedron, ten of
+        /// one with midside nodes.
         required cells: Vec<At<All<Whole<0>>>>,
     }
 }
@@ -68,13 +73,15 @@ table! {
         required size: [Positive; 3],
         /// Hexahedra along the edges.
         required divisions: [Count; 3],
-        /// What they are divided into. Default: `hexahedra`, which are left whole.
+        /// Kind of cells that the hexahedra are divided into. Default: `hexahedra`, which are not
+        /// divided.
         optional cells: Cells,
         /// Interval lengths along the edges. Default: equal.
         optional grading: Gradings,
         /// Rotation of the whole block. Default: none.
         optional rotation: Rotation,
-        /// Angle in degrees by which the mesh turns about the third axis inside the unchanged outline. Default: 0.
+        /// Angle in degrees by which the mesh is rotated about the third axis inside the unchanged
+        /// outline. Default: 0.
         optional mesh_rotation: Number,
         /// Slopes of the lower side along the first two axes. Default: `[0, 0]`.
         optional bottom_slopes: [Number; 2],
@@ -90,15 +97,15 @@ table! {
 words! {
     /// Kinds of elements.
     Cells {
-        /// With eight nodes.
+        /// Hexahedra with eight nodes.
         Hexahedra = "hexahedra",
-        /// With six nodes, two in each hexahedron, standing along the third axis.
+        /// Wedges with six nodes, two in each hexahedron, along the third axis.
         Wedges = "wedges",
-        /// With five nodes, six in each hexahedron.
+        /// Pyramids with five nodes, six in each hexahedron.
         Pyramids = "pyramids",
-        /// With four nodes, six in each hexahedron.
+        /// Tetrahedra with four nodes, six in each hexahedron.
         Tetrahedra = "tetrahedra",
-        /// With ten nodes, six in each hexahedron, each linear in twelve parts.
+        /// Tetrahedra with ten nodes, six in each hexahedron, each linear in twelve parts.
         CompositeTetrahedra = "composite-tetrahedra",
     }
 }
@@ -155,7 +162,7 @@ table! {
         required axis: [Number; 3],
         /// Angle in degrees by the right-hand rule.
         required degrees: Number,
-        /// Point that stays. Default: the middle of the body.
+        /// Fixed point of the rotation. Default: the centre of the body.
         optional about: [Number; 3],
     }
 }
@@ -179,17 +186,18 @@ table! {
         optional fine_depth: NonNegative,
         /// Largest ratio of neighbouring sizes outside that zone. Default: 1.3.
         optional growth: Growth,
-        /// How much of it is meshed. Default: `whole`.
+        /// Part of it that is meshed. Default: `whole`.
         optional part: Part,
-        /// What its hexahedra are divided into. Default: `hexahedra`, which are left whole.
+        /// Kind of cells that its hexahedra are divided into. Default: `hexahedra`, which are not
+        /// divided.
         optional cells: Cells,
     }
 }
 
 words! {
-    /// How much of a block is meshed.
+    /// Part of a block that is meshed.
     Part {
-        /// All of it.
+        /// The whole block.
         Whole = "whole",
         /// The half on the positive side of the second axis; `ymin` is then the plane of symmetry.
         Half = "half",
@@ -201,7 +209,7 @@ table! {
     HalfCylinder {
         /// Contact point in the side `ymin`: lowest of the lower half, highest of the upper half. Default: `[0, 0, 0]`.
         optional apex: [Number; 3],
-        /// Which half. Default: `lower`.
+        /// Half of the cylinder. Default: `lower`.
         optional half: Half,
         /// Radius.
         required radius: Positive,
@@ -233,7 +241,7 @@ words! {
 table! {
     /// A ring about an axis. Sets of nodes and facets: `rim` inside, `tread` outside, the plane sides `ymin`, `ymax` and both of them, `sides`.
     Annulus {
-        /// Middle of the ring. Default: `[0, 0, 0]`.
+        /// Centre of the ring. Default: `[0, 0, 0]`.
         optional centre: [Number; 3],
         /// Axis of any length. Default: `[0, 1, 0]`.
         optional axis: [Number; 3],
@@ -265,9 +273,9 @@ table! {
 }
 
 table! {
-    /// A solid cylinder. Sets of nodes and facets: the round `side`, `zmin`, `zmax`, of a quarter also its planes of symmetry `xmin` and `ymin`; named before it is turned.
+    /// A solid cylinder. Sets of nodes and facets: the round `side`, `zmin`, `zmax`, for a quarter also its planes of symmetry `xmin` and `ymin`; named before rotation.
     SolidCylinder {
-        /// Middle of the side `zmin`. Default: `[0, 0, 0]`.
+        /// Centre of the side `zmin`. Default: `[0, 0, 0]`.
         optional base: [Number; 3],
         /// Axis from there, of any length. Default: `[0, 0, 1]`.
         optional axis: [Number; 3],
@@ -279,15 +287,15 @@ table! {
         required divisions: [Count; 3],
         /// Interval lengths along the axis. Default: equal.
         optional axial_grading: Grading,
-        /// How much of it is meshed. Default: `whole`.
+        /// Part of it that is meshed. Default: `whole`.
         optional part: Sector,
     }
 }
 
 words! {
-    /// How much of a cylinder is meshed.
+    /// Part of a cylinder that is meshed.
     Sector {
-        /// All of it.
+        /// The whole cylinder.
         Whole = "whole",
         /// The quarter on the positive sides of the first two axes.
         Quarter = "quarter",
@@ -297,11 +305,11 @@ words! {
 table! {
     /// A ring of round section. Set of nodes and facets: `surface`.
     Torus {
-        /// Middle of the ring. Default: `[0, 0, 0]`.
+        /// Centre of the ring. Default: `[0, 0, 0]`.
         optional centre: [Number; 3],
         /// Axis of any length. Default: `[0, 0, 1]`.
         optional axis: [Number; 3],
-        /// Radius of the circle on which the middles of the sections lie.
+        /// Radius of the circle on which the centres of the sections lie.
         required ring_radius: Positive,
         /// Radius of the section.
         required section_radius: Positive,

@@ -1,8 +1,7 @@
 //! The tables of a deck as written: every key, its form and its meaning.
 //!
-//! A value that could not be read is `None`; its faults have been noted.
-//! The first line of a table's documentation and the documentation of its keys
-//! are what the JSON schema and the reference show.
+//! Values that could not be read are `None`; their faults have been noted. The JSON schema and the
+//! reference show the first line of a table's documentation and the documentation of its keys.
 
 mod actuation;
 mod body;
@@ -28,11 +27,17 @@ use super::value::{NamedNumbers, OneOrMore, Text};
 table! {
     /// A whole simulation. All quantities are in one consistent system of units of your choice.
     Simulation {
-        /// One line that says what is simulated.
+        /// Title: the subject of the simulation in one line.
         required title: Text,
-        /// Numbers with names of your own. Any number of the deck may be a text such as `"= 2*E/L^2"`, an expression of them, with `+ - * / ^`, parentheses, `pi`, `sqrt`, `abs`, `exp`, `ln`, `log10`, `min`, `max`, `round`, `floor`, `ceil` and, in degrees, `sin`, `cos`, `tan`, `asin`, `acos`, `atan`. `--set NAME=VALUE` on the command line sets one, or another number of the deck by its path, `--set material.rubber.youngs_modulus=2e6`.
+        /// Named numbers. Any number of the deck may be a text such as `"= 2*E/L^2"`, an expression
+        /// of them, with `+ - * / ^`, parentheses, `pi`, `sqrt`, `abs`, `exp`, `ln`, `log10`,
+        /// `min`, `max`, `round`, `floor`, `ceil` and, in degrees, `sin`, `cos`, `tan`, `asin`,
+        /// `acos`, `atan`. `--set NAME=VALUE` on the command line sets one, or another number of
+        /// the deck by its path, `--set material.rubber.youngs_modulus=2e6`.
         optional parameters: NamedNumbers,
-        /// Files whose contents count as if they stood here, relative to this one: their lists go first, and where both state the same key, this file counts. Paths within them are relative to the deck.
+        /// Files whose contents are treated as part of this one, relative to it: their lists come
+        /// first, and where both state a key, this file takes precedence. Paths within them are
+        /// relative to the deck.
         optional include: OneOrMore,
         /// Bulk materials.
         optional material: Vec<At<Material>>,
@@ -42,15 +47,16 @@ table! {
         optional rigid: Vec<At<Rigid>>,
         /// Pairs of surfaces that may touch.
         optional pair: Vec<At<Pair>>,
-        /// Contact of every surface with every surface, itself included. Default: only what `pair` names.
+        /// Contact of every surface with every surface, including itself. Default: only the
+        /// surfaces named by a `pair`.
         optional contact: Contact,
-        /// Surfaces of bodies that are glued.
+        /// Surfaces of bodies that are glued together.
         optional tie: Vec<At<BodyTie>>,
         /// Curves along which conditions change.
         optional curve: Vec<At<NamedCurve>>,
         /// Parts of the loading history, in the order in which they are run.
         optional step: Vec<At<Step>>,
-        /// What is written.
+        /// Output of the run.
         optional output: OutputSettings,
         /// Newton's method and the linear solver.
         optional solver: SolverSettings,

@@ -7,7 +7,7 @@ use crate::{
 };
 
 table! {
-    /// A set of nodes besides those of the mesh.
+    /// A set of nodes in addition to those of the mesh.
     NodeSet {
         /// Name that no other node set of the body has.
         required name: Text,
@@ -34,7 +34,7 @@ either! {
 }
 
 table! {
-    /// A set of elements besides those of the mesh.
+    /// A set of elements in addition to those of the mesh.
     ElementSet {
         /// Name that no other element set of the body has.
         required name: Text,
@@ -44,7 +44,7 @@ table! {
 }
 
 either! {
-    /// Members of an element set, in a region with all their corners.
+    /// Members of an element set; regions contain elements with all their corners.
     ElementMembers {
         Common(CommonMembers),
         Union(SetUnion),
@@ -67,7 +67,7 @@ table! {
 }
 
 table! {
-    /// What several sets have in common.
+    /// Common members of several sets.
     CommonMembers {
         /// Names of the sets, of the mesh or of the deck.
         required common: Vec<At<Text>>,
@@ -75,7 +75,7 @@ table! {
 }
 
 table! {
-    /// The members of several sets together.
+    /// Union of several sets.
     SetUnion {
         /// Names of the sets, of the mesh or of the deck.
         required union: Vec<At<Text>>,
@@ -83,7 +83,7 @@ table! {
 }
 
 table! {
-    /// What is in a box along the axes.
+    /// Members in a box along the axes.
     InBox {
         /// Corner of smallest coordinates.
         required from: [Number; 3],
@@ -93,7 +93,7 @@ table! {
 }
 
 table! {
-    /// What is in a ball.
+    /// Members in a ball.
     InSphere {
         /// The ball.
         required sphere: Sphere,
@@ -103,7 +103,7 @@ table! {
 table! {
     /// A ball.
     Sphere {
-        /// Its middle.
+        /// Its centre.
         required centre: [Number; 3],
         /// Its radius.
         required radius: Positive,
@@ -111,7 +111,7 @@ table! {
 }
 
 table! {
-    /// What is in a cylinder.
+    /// Members in a cylinder.
     InCylinder {
         /// The cylinder, without ends.
         required cylinder: Cylinder,
@@ -131,15 +131,15 @@ table! {
 }
 
 table! {
-    /// What is on one side of a plane.
+    /// Members on one side of a plane.
     InHalfSpace {
-        /// That side.
+        /// The half space.
         required half_space: HalfSpace,
     }
 }
 
 table! {
-    /// All on one side of a plane.
+    /// Region on one side of a plane.
     HalfSpace {
         /// A point of the plane.
         required point: [Number; 3],
@@ -165,7 +165,7 @@ table! {
 }
 
 table! {
-    /// Facets or elements with all their corners in a set of nodes.
+    /// Facets or elements with all corners in a set of nodes.
     OfNodes {
         /// Name of the node set.
         required nodes: Text,
@@ -173,7 +173,7 @@ table! {
 }
 
 table! {
-    /// What is between elements of a set and all else: nodes, or facets on the boundary of the body.
+    /// Border between the elements of a set and everything else: nodes, or facets on the boundary of the body.
     OfBorder {
         /// Name of the element set.
         required border: Text,
@@ -189,7 +189,7 @@ table! {
 }
 
 table! {
-    /// A set of facets besides those of the mesh.
+    /// A set of facets in addition to those of the mesh.
     FacetSet {
         /// Name that no other facet set of the body has.
         required name: Text,
@@ -216,7 +216,7 @@ either! {
 }
 
 table! {
-    /// The facets of a set that lie in a box along the axes with all their corners.
+    /// The facets of a set with all corners in a box along the axes.
     FacetsInBox {
         /// Name of the set. Default: `all`.
         optional of: Text,
@@ -228,7 +228,7 @@ table! {
 }
 
 table! {
-    /// The facets of a set that lie in a ball with all their corners.
+    /// The facets of a set with all corners in a ball.
     FacetsInSphere {
         /// Name of the set. Default: `all`.
         optional of: Text,
@@ -238,7 +238,7 @@ table! {
 }
 
 table! {
-    /// The facets of a set that lie in a cylinder with all their corners.
+    /// The facets of a set with all corners in a cylinder.
     FacetsInCylinder {
         /// Name of the set. Default: `all`.
         optional of: Text,
@@ -248,17 +248,17 @@ table! {
 }
 
 table! {
-    /// The facets of a set that lie on one side of a plane with all their corners.
+    /// The facets of a set with all corners on one side of a plane.
     FacetsInHalfSpace {
         /// Name of the set. Default: `all`.
         optional of: Text,
-        /// That side.
+        /// The half space.
         required half_space: HalfSpace,
     }
 }
 
 table! {
-    /// The facets of a set that look along a direction.
+    /// The facets of a set that face a direction.
     FacetsAlong {
         /// Name of the set. Default: `all`.
         optional of: Text,
@@ -270,13 +270,14 @@ table! {
 }
 
 table! {
-    /// The facets of a set that are reached from the one nearest to a place over edges at which the surface turns little.
+    /// The facets of a set that can be reached from the one nearest to a place without crossing a sharp edge.
     FacetsAround {
         /// Name of the set. Default: `all`.
         optional of: Text,
         /// The place.
         required around: [Number; 3],
-        /// Largest angle in degrees between the normals on the two sides of an edge that is passed.
+        /// Largest angle in degrees between the normals on the two sides of an edge that is
+        /// crossed.
         required feature_angle: HalfTurn,
     }
 }

@@ -7,17 +7,18 @@ use crate::{
 };
 
 table! {
-    /// What is written.
+    /// Output of the run.
     OutputSettings {
         /// Increments between files of fields; 0: only the last. Default: 1.
         optional fields_every: Whole<0>,
-        /// Time between files of fields, in the place of `fields_every`: they are written after the first increment that reaches each multiple of it.
+        /// Time between files of fields, instead of `fields_every`: fields are written after the
+        /// first increment that reaches each multiple of it.
         optional fields_interval: Positive,
         /// Names of the bodies whose fields are written. Default: all.
         optional bodies: Vec<At<Text>>,
         /// Fields of bodies. Default: `displacement`, `velocity`, `cauchy-stress`, `von-mises` and `history-variables`.
         optional body_fields: Vec<At<BodyField>>,
-        /// Fields of contact surfaces. Default: all but `slip-rate`.
+        /// Fields of contact surfaces. Default: all except `slip-rate`.
         optional contact_fields: Vec<At<ContactField>>,
         /// Archard's coefficient `k`, wear depth over pressure and slip: writes the field `wear_depth` of contact surfaces. Default: none.
         optional wear_coefficient: Positive,
@@ -25,7 +26,8 @@ table! {
         optional probes: Vec<At<Probe>>,
         /// Plane cuts of bodies; force and moment through them are written to `sections.csv` after every increment.
         optional sections: Vec<At<Section>>,
-        /// Increments between checkpoints, from which `striae resume` goes on, with another one where a minute has passed; 0: only when the run stops. Default: 10.
+        /// Increments between checkpoints, from which `striae resume` continues; another one is
+        /// written when a minute has passed; 0: only when the run stops. Default: 10.
         optional checkpoint_every: Whole<0>,
     }
 }
@@ -53,11 +55,11 @@ words! {
         PrincipalStrainDirections = "principal-strain-directions",
         /// Stored energy per volume at rest of the elements at each node.
         StrainEnergyDensity = "strain-energy-density",
-        /// Named variables of materials with a memory, by element.
+        /// Named internal variables of materials, by element.
         HistoryVariables = "history-variables",
-        /// Unit vectors along the families of fibres of each element. Of bodies with fibres.
+        /// Unit vectors along the families of fibres of each element, for bodies with fibres.
         Fibres = "fibres",
-        /// Number of the section of each element, in the order of `sections` from 1; 0 where it is of the body's own material. Of bodies with sections.
+        /// Number of the section of each element, in the order of `sections` from 1; 0 outside of sections. For bodies with sections.
         Section = "section",
     }
 }
@@ -75,7 +77,7 @@ words! {
         Slip = "slip",
         /// Slip in the last increment over its time.
         SlipRate = "slip-rate",
-        /// Length of the way slipped since the start.
+        /// Length of the path slipped since the start.
         AccumulatedSlip = "accumulated-slip",
         /// Friction work per area since the start.
         FrictionWork = "friction-work",
@@ -97,27 +99,28 @@ table! {
         required name: Text,
         /// Name of the body.
         required body: Text,
-        /// A point of the plane before anything has moved.
+        /// A point of the plane before any motion.
         required point: [Number; 3],
-        /// Normal of the plane then, of any length. The force is that which the part it points to exerts on the other one: along the normal, tension is positive.
+        /// Normal of the plane before any motion, of any length. The force is that which the part
+        /// it points to exerts on the other one: along the normal, tension is positive.
         required normal: [Number; 3],
     }
 }
 
 table! {
-    /// A place of a body that is watched.
+    /// A place of a body at which results are recorded.
     Probe {
         /// Name of its columns.
         required name: Text,
         /// Name of the body.
         required body: Text,
-        /// Where it is.
+        /// Place of the probe.
         include place: ProbePlace,
     }
 }
 
 either! {
-    /// Where a probe is.
+    /// Place of a probe.
     ProbePlace {
         Point(ProbePoint),
         Nodes(ProbeNodes),
@@ -127,7 +130,7 @@ either! {
 table! {
     /// A material point.
     ProbePoint {
-        /// Its place before anything has moved; values are interpolated.
+        /// Its position before any motion; values are interpolated.
         required point: [Number; 3],
     }
 }
@@ -145,7 +148,7 @@ table! {
     SolverSettings {
         /// Factorisation of the linear systems. Default: `condensed`.
         optional backend: Backend,
-        /// How stick and slip are found. Default: `semismooth`.
+        /// Determination of stick and slip. Default: `semismooth`.
         optional strategy: Strategy,
         /// Relative tolerance of every residual field. Default: 1e-10.
         optional tolerance: Positive,
@@ -157,13 +160,13 @@ table! {
 words! {
     /// Factorisation of the linear systems.
     Backend {
-        /// Bodies by Cholesky and contact by dense algebra; multifrontal LU where that does not work or pay, `iterative` for large bodies.
+        /// Bodies by Cholesky and contact by dense algebra; multifrontal LU if that fails or is cheaper, `iterative` for large bodies.
         Condensed = "condensed",
         /// Multifrontal LU on dense fronts.
         Multifrontal = "multifrontal",
         /// Sparse LU of the library faer.
         Faer = "faer",
-        /// GMRES, the bodies by smoothed aggregation; direct factors where that fails.
+        /// GMRES, the bodies by smoothed aggregation; direct factors if that fails.
         Iterative = "iterative",
         /// MUMPS, a direct solver, in a build with PETSc.
         Mumps = "mumps",
@@ -171,7 +174,7 @@ words! {
 }
 
 choice! {
-    /// How stick and slip are found.
+    /// Determination of stick and slip.
     Strategy by method {
         "semismooth" => Semismooth(Semismooth),
         "table-1" => Table1(Table1),
@@ -186,7 +189,8 @@ table! {
 table! {
     /// By a predictor and a corrector between iterations, for comparison.
     Table1 {
-        /// How far friction may exceed the law, relative to it, before a sticking node slips. Default: 0.01.
+        /// Relative excess of friction over the law up to which a sticking node does not slip.
+        /// Default: 0.01.
         optional stick_tolerance: Positive,
     }
 }

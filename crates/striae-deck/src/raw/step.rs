@@ -11,41 +11,43 @@ use crate::{
 use toml::de::DeValue;
 
 table! {
-    /// A piecewise linear curve for conditions to change along.
+    /// A piecewise linear curve along which conditions change.
     NamedCurve {
         /// Unique name, other than `ramp`, `constant` and `smooth`, which are built in.
         required name: Text,
-        /// Pairs of the fraction of the step, rising from 0 to 1, and the share of the change that is done then.
+        /// Pairs of the fraction of the step, ascending from 0 to 1, and the fraction of the change
+        /// completed by then.
         required points: Vec<At<[Number; 2]>>,
     }
 }
 
 table! {
-    /// A part of the loading history. A condition holds until a later step states it again or releases it.
+    /// A part of the loading history. A condition holds until a later step restates or releases it.
     Step {
         /// Unique name.
         required name: Text,
         /// Duration in (pseudo) time. Default: 1.
         optional duration: Positive,
-        /// Implicit dynamics; an empty table takes the defaults. Default: a sequence of equilibria without inertia.
+        /// Implicit dynamics; an empty table selects the defaults. Default: a sequence of
+        /// equilibria without inertia.
         optional dynamics: Dynamics,
-        /// How the step is divided: a number of equal increments, or their sizes. Default: 10.
+        /// Division of the step: a number of equal increments, or their sizes. Default: 10.
         optional increments: Increments,
-        /// Velocities of whole bodies at the start of the step. Default: those they have.
+        /// Velocities of whole bodies at the start of the step. Default: their present velocities.
         optional velocity: Vec<At<Velocity>>,
-        /// Acceleration of gravity on all bodies; it stays until a later step states it again.
+        /// Acceleration of gravity on all bodies, until a later step restates it.
         optional gravity: Gravity,
         /// Prescribed displacements of nodes.
         optional displacement: Vec<At<Displacement>>,
-        /// Prescribed displacements that end with the start of the step.
+        /// Prescribed displacements that end at the start of the step.
         optional release: Vec<At<Release>>,
         /// Tractions on facets.
         optional traction: Vec<At<Traction>>,
         /// Pressures on facets.
         optional pressure: Vec<At<Pressure>>,
-        /// Strains without stress and tensions that bodies take on of themselves.
+        /// Stress-free strains and tensions of bodies.
         optional actuation: Vec<At<Actuation>>,
-        /// What rigid bodies do.
+        /// Motions of rigid bodies.
         optional rigid: Vec<At<RigidMotion>>,
         /// Changes of friction at the start of the step.
         optional friction: Vec<At<FrictionChange>>,
@@ -75,7 +77,7 @@ table! {
 }
 
 either! {
-    /// What has a velocity.
+    /// Part that a velocity is given to.
     VelocityOf {
         Body(VelocityOfBody),
         Rigid(VelocityOfRigid),
@@ -103,15 +105,16 @@ table! {
     Gravity {
         /// Target of the acceleration.
         required vector: [Number; 3],
-        /// How the target is approached: `ramp`, `constant`, `smooth` or the name of a curve. Default: `ramp`.
+        /// Curve towards the target: `ramp`, `constant`, `smooth` or the name of a curve. Default:
+        /// `ramp`.
         optional curve: Text,
     }
 }
 
-/// How a step is divided.
+/// Division of a step.
 #[derive(Clone, Debug)]
 pub(crate) enum Increments {
-    /// Equal increments of this number, cut where needed.
+    /// Number of equal increments, cut if needed.
     Number(Count),
     /// Sizes as fractions of the step.
     Sizes(IncrementSizes),
@@ -134,9 +137,9 @@ impl Read for Increments {
 table! {
     /// Sizes of increments as fractions of the step.
     IncrementSizes {
-        /// First increment. Default: a tenth, or the largest where that is smaller.
+        /// First increment. Default: a tenth, or the largest if that is smaller.
         optional initial: Fraction,
-        /// Smallest increment before the run is given up. Default: a thousandth of the first.
+        /// Smallest increment, below which the run ends. Default: a thousandth of the first.
         optional smallest: Fraction,
         /// Largest increment. Default: the first.
         optional largest: Fraction,
@@ -150,13 +153,14 @@ table! {
         required body: Text,
         /// Name of its node set.
         required nodes: Text,
-        /// Target of the first component; an absent component is left as it is.
+        /// Target of the first component; absent components keep their state.
         optional x: Number,
         /// Target of the second component.
         optional y: Number,
         /// Target of the third component.
         optional z: Number,
-        /// How the target is approached: `ramp`, `constant`, `smooth` or the name of a curve. Default: `ramp`.
+        /// Curve towards the target: `ramp`, `constant`, `smooth` or the name of a curve. Default:
+        /// `ramp`.
         optional curve: Text,
     }
 }
@@ -168,7 +172,7 @@ table! {
         required body: Text,
         /// Name of its node set.
         required nodes: Text,
-        /// Components that become free. Default: all that are prescribed.
+        /// Components that become free. Default: all prescribed ones.
         optional components: Vec<At<Component>>,
     }
 }
@@ -194,11 +198,12 @@ table! {
         required facets: Text,
         /// Target of the traction.
         required vector: [Number; 3],
-        /// Whether it keeps its direction. Default: `dead`.
+        /// Direction of the force as the body deforms. Default: `dead`.
         optional direction: Direction,
-        /// Which part of the facets is loaded. Default: `whole`.
+        /// Part of the facets that is loaded. Default: `whole`.
         optional extent: Extent,
-        /// How the target is approached: `ramp`, `constant`, `smooth` or the name of a curve. Default: `ramp`.
+        /// Curve towards the target: `ramp`, `constant`, `smooth` or the name of a curve. Default:
+        /// `ramp`.
         optional curve: Text,
     }
 }
@@ -208,7 +213,7 @@ words! {
     Direction {
         /// Force per reference area of fixed direction.
         Dead = "dead",
-        /// Force per current area that turns with the facet.
+        /// Force per current area that rotates with the facet.
         Follower = "follower",
     }
 }
@@ -216,9 +221,9 @@ words! {
 words! {
     /// Part of the facets that carries a load.
     Extent {
-        /// All of it.
+        /// All facets.
         Whole = "whole",
-        /// Only what no other contact surface covers.
+        /// Only the part that no other contact surface covers.
         Exposed = "exposed",
     }
 }
@@ -232,29 +237,33 @@ table! {
         required facets: Text,
         /// Target of the pressure, positive inwards.
         required value: Number,
-        /// Which part of the facets is loaded. Default: `whole`.
+        /// Part of the facets that is loaded. Default: `whole`.
         optional extent: Extent,
-        /// How the target is approached: `ramp`, `constant`, `smooth` or the name of a curve. Default: `ramp`.
+        /// Curve towards the target: `ramp`, `constant`, `smooth` or the name of a curve. Default:
+        /// `ramp`.
         optional curve: Text,
     }
 }
 
 table! {
-    /// What a rigid body does. At first all its coordinates are held.
+    /// Motion of a rigid body. Initially all its coordinates are held.
     RigidMotion {
         /// Name of the rigid body.
         required surface: Text,
-        /// Target of the displacement of its reference point. Default: it stays free or where it is.
+        /// Target of the displacement of its reference point. Default: it stays free or at its
+        /// place.
         optional displacement: [Number; 3],
-        /// Targets of the angles it has turned about the fixed axes, in degrees. Default: they stay free or what they are.
+        /// Targets of the rotation angles about the fixed axes, in degrees. Default: they stay free
+        /// or unchanged.
         optional rotation: [Number; 3],
-        /// Coordinates that forces decide from now on; they have no target.
+        /// Coordinates that are free from now on and follow the forces; they have no target.
         optional free: Vec<At<Coordinate>>,
         /// Target of the force that drives free coordinates, at the reference point.
         optional force: [Number; 3],
         /// Target of the torque that drives free coordinates.
         optional torque: [Number; 3],
-        /// How the targets are approached: `ramp`, `constant`, `smooth` or the name of a curve. Default: `ramp`.
+        /// Curve towards the targets: `ramp`, `constant`, `smooth` or the name of a curve. Default:
+        /// `ramp`.
         optional curve: Text,
     }
 }

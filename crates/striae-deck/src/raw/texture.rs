@@ -24,7 +24,7 @@ table! {
     UniformTexture {
         /// The direction.
         required uniform: [Number; 3],
-        /// Angle in degrees by which it is turned about the outward normal. Default: 0.
+        /// Angle in degrees by which it is rotated about the outward normal. Default: 0.
         optional turn: Number,
     }
 }
@@ -34,7 +34,7 @@ table! {
     CircumferentialTexture {
         /// The axis.
         required circumferential: Axis,
-        /// Angle in degrees by which they are turned about the outward normal. Default: 0.
+        /// Angle in degrees by which they are rotated about the outward normal. Default: 0.
         optional turn: Number,
     }
 }
@@ -44,7 +44,7 @@ table! {
     AxialTexture {
         /// The axis.
         required axial: Axis,
-        /// Angle in degrees by which they are turned about the outward normal. Default: 0.
+        /// Angle in degrees by which they are rotated about the outward normal. Default: 0.
         optional turn: Number,
     }
 }
@@ -54,13 +54,13 @@ table! {
     RadialTexture {
         /// The axis.
         required radial: Axis,
-        /// Angle in degrees by which they are turned about the outward normal. Default: 0.
+        /// Angle in degrees by which they are rotated about the outward normal. Default: 0.
         optional turn: Number,
     }
 }
 
 table! {
-    /// Directions at chosen places, interpolated in between.
+    /// Directions at chosen places, interpolated between them.
     PointTexture {
         /// The places and their directions.
         required points: Vec<At<PaintedPoint>>,
@@ -72,9 +72,11 @@ table! {
 table! {
     /// A direction at every node of the surface, from a file.
     NodalTexture {
-        /// Path relative to the deck of a Gmsh file (`.msh`) with `$NodeData` of three components, or of a list (`.csv`) with lines `node,x,y,z`. Nodes have the numbers of the file of the mesh; those of other meshes are counted from 0.
+        /// Path relative to the deck of a Gmsh file (`.msh`) with `$NodeData` of three components,
+        /// or of a list (`.csv`) with lines `node,x,y,z`. Nodes have the numbers of the mesh file;
+        /// nodes of other meshes are counted from 0.
         required nodal: Text,
-        /// Name of the node data of a Gmsh file. Default: the only ones.
+        /// Name of the node data of a Gmsh file. Default: the only data there.
         optional name: Text,
     }
 }
@@ -82,7 +84,7 @@ table! {
 table! {
     /// A direction at every node of the surface, written in the deck.
     ListedTexture {
-        /// Directions in ascending order of the nodes, of which the tangential part counts.
+        /// Directions in ascending order of the nodes; their tangential part is used.
         required directions: Vec<At<[Number; 3]>>,
     }
 }
@@ -102,7 +104,7 @@ table! {
     PaintedPoint {
         /// The place; the nearest node of the surface is painted.
         required at: [Number; 3],
-        /// The direction, of which the tangential part counts.
+        /// The direction; its tangential part is used.
         required direction: [Number; 3],
     }
 }

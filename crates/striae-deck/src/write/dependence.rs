@@ -1,4 +1,4 @@
-//! How coefficients of friction depend on pressure, slip rate and accumulated slip.
+//! Dependence of coefficients of friction on pressure, slip rate and accumulated slip.
 
 use striae_law::friction::{
     Coefficient, Decay, Logarithm, PressureConstants, RateConstants, SlipConstants,

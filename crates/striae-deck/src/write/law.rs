@@ -13,7 +13,7 @@ use super::{
     value::{degrees, list, number, read_as, vector},
 };
 
-/// The keys of a friction table in braces; `None` for a law of one's own.
+/// The keys of a friction table in braces; `None` for a user-defined law.
 pub(super) fn friction(friction: &Friction) -> Option<String> {
     Some(format!("{{ {} }}", friction_keys(friction)?))
 }
@@ -64,8 +64,8 @@ pub(super) fn friction_keys(friction: &Friction) -> Option<String> {
     Some(text)
 }
 
-/// Lines of a material but for its name; `None` for a law that decks have no table for, as of
-/// one's own.
+/// Lines of a material without its name; `None` for a law without a table in decks, such as a
+/// user-defined one.
 pub(crate) fn material(of: &Material) -> Option<String> {
     match of {
         Material::NeoHookean {

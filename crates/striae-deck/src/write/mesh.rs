@@ -135,7 +135,7 @@ impl Writer<'_> {
     ) -> Option<String> {
         let Some(lines) = law::material(material) else {
             let part = format!("body `{}`", self.model.bodies[body].name);
-            self.refuse(part, "its material is a law of one's own");
+            self.refuse(part, "its material is a user-defined law");
             return None;
         };
         let density = match density {

@@ -5,9 +5,9 @@
 //! positions, cells and numbers of members of sets: how they were generated or where they
 //! were read is no part of a model. Gaps that were closed are closed in these meshes.
 //!
-//! Where a deck states a quantity in other terms than a model (degrees for radians, a normal
-//! of any length, coefficients for their shares in the largest), the number that is written
-//! is the one that gives the same bits when it is read, see `value`.
+//! If a deck states a quantity in other terms than a model (degrees for radians, a normal of any
+//! length, coefficients for their shares in the largest), the number that is written is the one
+//! that gives the same bits when it is read, see `value`.
 
 mod actuation;
 mod dependence;
@@ -26,7 +26,7 @@ use striae_output::Output;
 use striae_solve::model::{Backend, Curve, Model, Solver, Strategy};
 use value::{number, text};
 
-/// What a model says and a deck cannot.
+/// Parts of a model that a deck cannot state.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub struct Unstated {
     /// Parts of the model and why a deck cannot state them.
@@ -46,7 +46,7 @@ impl fmt::Display for Unstated {
 /// The text of a deck.
 ///
 /// # Errors
-/// All that the model says and a deck cannot: laws of one's own, textures at chosen nodes,
+/// Everything that the model states and a deck cannot: user-defined laws, textures at chosen nodes,
 /// motions of single coordinates of rigid bodies.
 pub fn write(model: &Model, output: &Output) -> Result<String, Unstated> {
     let mut writer = Writer {

@@ -1,4 +1,4 @@
-//! What a run writes.
+//! Output of a run.
 
 use striae_output::{BodyField, ContactField, FieldOutput, Output, Probe, ProbePlace, Section};
 

@@ -14,7 +14,7 @@ impl Writer<'_> {
         let [a, b] = [0, 1].map(|side| self.side(pair, side));
         let friction = law::friction(&pair.friction).unwrap_or_else(|| {
             let part = format!("pair `{}`", pair.name);
-            self.refuse(part, "its friction is a law of one's own");
+            self.refuse(part, "its friction is a user-defined law");
             String::new()
         });
         let enforcement = match pair.enforcement {

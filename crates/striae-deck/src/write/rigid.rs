@@ -34,14 +34,14 @@ impl Writer<'_> {
             }
         };
         if !rigid.ties.is_empty() && !matches!(rigid.shape, RigidShape::Bare) {
-            self.refuse(part(), "it has a shape and nodes that are tied to it");
+            self.refuse(part(), "it has both a shape and tied nodes");
         }
         let inertia = match &rigid.inertia {
             None => String::new(),
             Some(inertia) => stated(rigid, inertia).unwrap_or_else(|| {
                 self.refuse(
                     part(),
-                    "its mass is neither at its reference point nor its solid's",
+                    "its mass is neither at its reference point nor that of its solid",
                 );
                 String::new()
             }),

@@ -107,7 +107,7 @@ impl<'m> Writer<'m> {
         let told = stated.into_iter().map(|(pair, keys)| {
             let keys = keys.unwrap_or_else(|| {
                 let part = format!("step `{}`, pair `{pair}`", step.name);
-                self.refuse(part, "its friction is a law of one's own");
+                self.refuse(part, "its friction is a user-defined law");
                 String::new()
             });
             format!("{{ pair = {}, {keys} }}", text(pair))
@@ -189,7 +189,7 @@ impl<'m> Writer<'m> {
             let moved = part.iter().any(|one| matches!(one, Freedom::To(_)));
             if moved && part.contains(&Freedom::AsBefore) {
                 let part = format!("step `{}`, rigid body `{name}`", step.name);
-                let reason = "it moves by some components and stays as it is by others";
+                let reason = "some of its components move and others keep their state";
                 self.refuse(part, reason);
             }
             if moved {

@@ -2,8 +2,8 @@
 
 use striae_mesh::Vec3;
 
-/// How far, in units in the last place, the number that was written once is sought from the
-/// one that is computed back.
+/// Range, in units in the last place, in which the number that was written is sought around the one
+/// that is computed back.
 const REACH: i64 = 16;
 
 /// A number.

@@ -2,16 +2,16 @@
 
 use serde_json::Value;
 
-/// What the schema says of a deck.
+/// Verdict of the schema on a deck.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// It fits.
+    /// The deck matches the schema.
     Accepted,
-    /// It does not fit, or is not even TOML.
+    /// The deck does not match the schema, or is not even TOML.
     Refused,
 }
 
-/// What the schema says of a deck.
+/// Verdict of the schema on a deck.
 pub fn verdict(text: &str) -> Verdict {
     match toml::from_str::<Value>(text) {
         Ok(deck) if fits(&deck, &striae_deck::json_schema()) => Verdict::Accepted,

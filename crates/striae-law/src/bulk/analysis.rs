@@ -1,4 +1,4 @@
-//! What a material does in the tests by which it is measured.
+//! Response of a material in the standard tests that characterise it.
 //!
 //! A specimen is stretched by `l` along the first axis, free of stress where it is free to
 //! contract:

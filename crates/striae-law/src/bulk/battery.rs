@@ -1,11 +1,11 @@
-//! What every bulk law must do, in one call.
+//! Battery of properties that every bulk law must satisfy, checked in one call.
 //!
-//! A law of one's own is held against the laws of elasticity before it meets a mesh: free of
-//! energy and stress at rest, `P = dW/dF`, `A = dP/dF = A^T`, and `W(Q F) = W(F)` for every
-//! rotation `Q`. A law with a memory is led along a random path first; what it remembers is
-//! held while derivatives are taken, `P = dW/dF` is asked for only of laws without one, and
-//! the dissipation must not be negative. Derivatives are judged by the order at which finite-difference errors fall,
-//! so no tolerance has to be chosen.
+//! A user-defined law is checked against the laws of elasticity before it is used in a mesh: no
+//! energy and no stress at rest, `P = dW/dF`, `A = dP/dF = A^T`, and `W(Q F) = W(F)` for every
+//! rotation `Q`. A law with internal variables is first driven along a random path; these are held
+//! fixed while derivatives are taken. `P = dW/dF` is required only of laws without internal
+//! variables, and the dissipation must not be negative. Derivatives are judged by the order at
+//! which finite-difference errors fall, so no tolerance has to be chosen.
 
 use std::fmt;
 
@@ -19,11 +19,11 @@ use super::{Material, Past, Present, Response, ResponseError};
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Violation {
     /// A deformation near the state of rest has no answer.
-    #[error("the law has no answer to a deformation gradient near the identity: {0}")]
+    #[error("the law fails for a deformation gradient near the identity: {0}")]
     NoResponse(ResponseError),
     /// Energy or stress at rest.
     #[error(
-        "at rest the energy is {energy:.6e} and the norm of the stress {stress:.6e}, both must be 0"
+        "at rest the energy is {energy:.6e} and the norm of the stress {stress:.6e}, but both must be 0"
     )]
     Rest {
         /// Stored energy.
@@ -41,7 +41,7 @@ pub enum Violation {
     #[error("the tangent differs from its transpose by {0:.3e} of its norm")]
     Asymmetric(f64),
     /// Less than nothing is dissipated.
-    #[error("the dissipation of an increment is {0:.6e}, it must not be negative")]
+    #[error("the dissipation of an increment is {0:.6e}, but it must not be negative")]
     Dissipation(f64),
     /// A rotation changes the energy or more than the direction of the stress.
     #[error(
@@ -55,7 +55,7 @@ pub enum Violation {
     },
 }
 
-/// States in which the law is looked at.
+/// Number of states in which the law is checked.
 const STATES: u64 = 5;
 /// Largest disturbance of a component of the identity.
 const AMPLITUDE: f64 = 0.15;

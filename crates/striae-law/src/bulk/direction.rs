@@ -15,7 +15,7 @@
 use nalgebra::Vector3;
 use serde::Serialize;
 
-/// Where a family of fibres points at rest.
+/// Direction of a family of fibres at rest.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum Direction {
     /// One direction everywhere, of any length.
@@ -26,7 +26,7 @@ pub enum Direction {
         point: Vector3<f64>,
         /// Its direction, of any length.
         axis: Vector3<f64>,
-        /// Which of the three.
+        /// Kind of lines.
         lines: LinesAbout,
     },
 }
@@ -71,7 +71,7 @@ impl Direction {
         }
     }
 
-    /// Whether its vectors have a length.
+    /// Returns whether all its vectors have nonzero length.
     pub(super) fn has_length(&self) -> bool {
         let (vector, point) = match self {
             Self::Uniform(direction) => (direction, Vector3::zeros()),

@@ -38,7 +38,7 @@ use super::{Direction, LameConstants, Material, Past, Present, Response, Respons
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 
-/// How a family of fibres takes up stretch.
+/// Stiffness of a family of fibres.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum FibreStiffness {
     /// Stiffer the more they are stretched, slack in compression.
@@ -60,9 +60,9 @@ pub enum FibreStiffness {
 /// A family of fibres.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Fibres {
-    /// How they take up stretch.
+    /// Stiffness of the fibres.
     pub stiffness: FibreStiffness,
-    /// Where they point at rest.
+    /// Direction of the fibres at rest.
     pub direction: Direction,
 }
 
@@ -77,15 +77,15 @@ pub struct Fibrous {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum InadmissibleFibres {
     /// There is none.
-    #[error("there is no family of fibres, at least one is needed")]
+    #[error("there is no family of fibres, but at least one is needed")]
     None,
     /// The ground is of another law.
     #[error(
-        "fibres need a neo-Hookean solid or rubber that does not relax around them, not one that is {0}"
+        "fibres need a neo-Hookean solid or rubber without relaxation around them, not a solid that is {0}"
     )]
     Ground(String),
     /// A constant out of its range.
-    #[error("`{name}` of family {family} is {value}, it must be {expected}")]
+    #[error("`{name}` of family {family} is {value}, but it must be {expected}")]
     Constant {
         /// Number of the family, from 0.
         family: usize,
@@ -93,7 +93,7 @@ pub enum InadmissibleFibres {
         name: &'static str,
         /// Its value.
         value: f64,
-        /// What it must be.
+        /// Requirement on the value.
         expected: &'static str,
     },
     /// A direction of no length.
@@ -137,7 +137,7 @@ impl Fibrous {
         })
     }
 
-    /// What is around the fibres.
+    /// Matrix material around the fibres.
     pub fn ground(&self) -> &Material {
         &self.ground
     }

@@ -17,7 +17,7 @@ use serde::Serialize;
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Hardening(HardeningForm);
 
-/// How the yield stress is stated.
+/// Form in which the yield stress is stated.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum HardeningForm {
     /// `Y = Y0 + (Ys - Y0) (1 - exp(-d p)) + H p`.
@@ -39,18 +39,18 @@ pub enum HardeningForm {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum InadmissibleHardening {
     /// A constant is out of its range.
-    #[error("`{name}` is {value}, it must be {needed}")]
+    #[error("`{name}` is {value}, but it must be {needed}")]
     Constant {
         /// Name of the constant.
         name: &'static str,
         /// Its value.
         value: f64,
-        /// What it must be.
+        /// Requirement on the value.
         needed: &'static str,
     },
     /// Saturation below the first yield stress.
     #[error(
-        "the stress of saturation is {saturation}, it must be at least `yield_stress`, {first}"
+        "the saturation stress is {saturation}, but it must be at least `yield_stress`, {first}"
     )]
     Saturation {
         /// The stress of saturation.
@@ -63,7 +63,7 @@ pub enum InadmissibleHardening {
     Start,
     /// A pair of a table that does not follow the one before.
     #[error(
-        "pair {0} of the table: its plastic strain must be larger than that before, its stress positive and not smaller"
+        "pair {0} of the table: its plastic strain must be larger than the previous one, its stress positive and not smaller than the previous one"
     )]
     Order(usize),
 }
@@ -146,7 +146,7 @@ impl Hardening {
         Ok(Self(HardeningForm::Table(pairs.into())))
     }
 
-    /// How it is stated.
+    /// Form in which it is stated.
     pub fn form(&self) -> &HardeningForm {
         &self.0
     }

@@ -1,15 +1,15 @@
-//! Laws with a memory: what a point has been through goes in, what it has come to goes out.
+//! Laws with internal variables: the old state of a point goes in, the new one comes out.
 //!
 //! ```text
 //! (P, A, new) = response(F, old, dt)
 //! ```
 //!
-//! A point has a fixed number of variables, all zero in a mesh that has not been deformed; those
-//! of fibres are directions, which stay.
-//! `A = dP/dF` is taken at fixed old variables, so that Newton's method converges
-//! quadratically. A law that forgets has no variables, and nothing of this concerns it.
+//! A point has a fixed number of variables, all zero in a mesh that has not been deformed; those of
+//! fibres are directions, which stay. `A = dP/dF` is taken at fixed old variables, so that Newton's
+//! method converges quadratically. A law without memory has no variables, and none of this concerns
+//! it.
 
-/// What a point has been through up to the last converged state.
+/// History of a point up to the last converged state.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Past<'a> {
     /// The variables then, as many as the law has.
@@ -18,7 +18,7 @@ pub struct Past<'a> {
     pub elapsed: f64,
 }
 
-/// What a point comes to.
+/// New state of a point.
 #[derive(Debug, Default, PartialEq)]
 pub struct Present<'a> {
     /// The variables now, as many as the law has.
@@ -28,8 +28,8 @@ pub struct Present<'a> {
 }
 
 impl<'a> Past<'a> {
-    /// What one of `count` points has been through, where the variables of all stand one
-    /// after the other.
+    /// History of one of `count` points, where the variables of all points are stored one after the
+    /// other.
     pub fn of_point(&self, point: usize, count: usize) -> Self {
         let each = self.variables.len() / count;
         Past {

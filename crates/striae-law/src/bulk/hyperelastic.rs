@@ -84,7 +84,7 @@ pub struct Hyperelastic {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum InadmissibleHyperelastic {
     /// A constant is no finite number.
-    #[error("`{name}` is {value}, it must be a finite number")]
+    #[error("`{name}` is {value}, but it must be a finite number")]
     NotFinite {
         /// Name of the constant.
         name: &'static str,
@@ -92,7 +92,7 @@ pub enum InadmissibleHyperelastic {
         value: f64,
     },
     /// A constant must be positive.
-    #[error("`{name}` is {value}, it must be positive")]
+    #[error("`{name}` is {value}, but it must be positive")]
     NotPositive {
         /// Name of the constant.
         name: &'static str,
@@ -100,21 +100,20 @@ pub enum InadmissibleHyperelastic {
         value: f64,
     },
     /// An exponent of Ogden's law is zero.
-    #[error("`alpha` of term {0} is 0, it must be positive or negative")]
+    #[error("`alpha` of term {0} is 0, but it must be positive or negative")]
     NoExponent(usize),
     /// Ogden's law without a term.
-    #[error("the law has no term, it needs at least one")]
+    #[error("the law has no term, but it needs at least one")]
     NoTerm,
     /// The shear modulus at rest.
-    #[error("the constants give the shear modulus {0} at rest, it must be positive")]
+    #[error("the constants give the shear modulus {0} at rest, but it must be positive")]
     Shear(f64),
     /// Chains that lock before they are stretched.
-    #[error("`locking_stretch` is {0}, it must be above 1")]
+    #[error("`locking_stretch` is {0}, but it must be above 1")]
     Locked(f64),
     /// The bulk modulus.
     #[error(
-        "the bulk modulus is {bulk} and the shear modulus {shear}: \
-         Poisson's ratio would be {ratio}, it must be above -1 and below 0.5"
+        "the bulk modulus is {bulk} and the shear modulus {shear}: Poisson's ratio would be {ratio}, but it must be above -1 and below 0.5"
     )]
     Bulk {
         /// Bulk modulus.

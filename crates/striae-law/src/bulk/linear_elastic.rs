@@ -8,8 +8,8 @@
 //! A_iJkL = lambda d_iJ d_kL + G (d_ik d_JL + d_iL d_kJ)
 //! ```
 //!
-//! It is not objective: rotations make strain. Its use is the comparison with
-//! closed forms of the linear theory. No deformation gradient is refused.
+//! The law is not objective: rotations produce strain. It serves for comparisons with closed forms
+//! of the linear theory. No deformation gradient is rejected.
 
 use super::{Response, Tangent};
 use nalgebra::Matrix3;

@@ -13,7 +13,7 @@
 //! Laws with a memory have no energy that all stress comes from; they answer to a deformation
 //! after a [`Past`] and say what is dissipated. Their `A` is symmetric all the same.
 //!
-//! A law is one file: parameters, formula, source, response. Laws of one's own implement
+//! A law is one file: parameters, formula, source, response. User-defined laws implement
 //! [`BulkLaw`] in any crate.
 
 mod analysis;
@@ -114,17 +114,17 @@ impl From<Response<CompactTangent>> for Response {
 /// A response with a compact tangent.
 pub type CompactResult = Result<Response<CompactTangent>, ResponseError>;
 
-/// Why a material has no answer to a deformation gradient.
+/// Reason why a material has no response to a deformation gradient.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum ResponseError {
     /// The material is turned inside out.
-    #[error("the deformation gradient has determinant {determinant:.6e}, it must be positive")]
+    #[error("the deformation gradient has determinant {determinant:.6e}, but it must be positive")]
     Inverted {
         /// Determinant `J` of the deformation gradient.
         determinant: f64,
     },
     /// The material is stretched beyond what its law allows.
-    #[error("the invariant I1 - 3 is {strain:.6e}, the law ends at {limit:.6e}")]
+    #[error("the invariant I1 - 3 is {strain:.6e}, but the law ends at {limit:.6e}")]
     Overstretched {
         /// `I1 - 3` of the isochoric deformation.
         strain: f64,
@@ -132,7 +132,7 @@ pub enum ResponseError {
         limit: f64,
     },
     /// Fibres are stretched beyond all measure.
-    #[error("the strain of fibres is {strain:.6e}, the law ends at {limit:.6e}")]
+    #[error("the strain of fibres is {strain:.6e}, but the law ends at {limit:.6e}")]
     OverstretchedFibres {
         /// Their strain `E`.
         strain: f64,
@@ -181,7 +181,7 @@ impl Material {
         }
     }
 
-    /// How many variables a point remembers; none where the law has no memory.
+    /// Number of internal variables of a point; zero if the law has none.
     pub fn variables(&self) -> usize {
         match self {
             Self::Viscoelastic(law) => law.variables(),
@@ -217,7 +217,7 @@ impl Material {
         }
     }
 
-    /// Whether all stress comes from an energy.
+    /// Returns whether all stress derives from an energy.
     fn is_elastic(&self) -> bool {
         self.variables() == 0 || matches!(self, Self::Fibrous(_))
     }
@@ -300,8 +300,8 @@ impl Material {
         }
     }
 
-    /// Cauchy stress at the deformation gradient `F`: `P F^T / J`, and `P`
-    /// itself for the law of small strains, which does not tell the two apart.
+    /// Cauchy stress at the deformation gradient `F`: `P F^T / J`, and `P` itself for the law of
+    /// small strains, which does not distinguish the two.
     ///
     /// # Errors
     ///
@@ -314,8 +314,7 @@ impl Material {
         Ok(self.cauchy(&first_piola, deformation_gradient))
     }
 
-    /// Cauchy stress at the deformation gradient `F` where the point has come to what it
-    /// remembers.
+    /// Cauchy stress at the deformation gradient `F`, given the variables of the point.
     ///
     /// # Errors
     ///

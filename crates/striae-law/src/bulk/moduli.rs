@@ -22,10 +22,10 @@ pub struct LameConstants {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum InadmissibleModuli {
     /// Young's modulus must be positive.
-    #[error("Young's modulus is {0}, it must be positive and finite")]
+    #[error("Young's modulus is {0}, but it must be positive and finite")]
     YoungsModulus(f64),
     /// Poisson's ratio must lie between -1 and 1/2.
-    #[error("Poisson's ratio is {0}, it must be above -1 and below 0.5")]
+    #[error("Poisson's ratio is {0}, but it must be above -1 and below 0.5")]
     PoissonsRatio(f64),
 }
 

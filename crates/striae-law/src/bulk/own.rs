@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::{Field, LameConstants, Past, Present, Response, ResponseError};
 use nalgebra::Matrix3;
 
-/// A law of one's own, for [`Material::own`](super::Material::own).
+/// A user-defined law, for [`Material::own`](super::Material::own).
 ///
 /// The solver takes energy, stress and tangent as they are given: Newton's method
 /// converges quadratically only if the tangent is the derivative of the stress, and the
@@ -26,7 +26,7 @@ pub trait BulkLaw: fmt::Debug + Send + Sync {
     /// A deformation the law does not allow; the increment is then cut back.
     fn response(&self, deformation_gradient: &Matrix3<f64>) -> Result<Response, ResponseError>;
 
-    /// How many variables a point remembers; all are zero at rest.
+    /// Number of internal variables of a point; all are zero at rest.
     fn variables(&self) -> usize {
         0
     }
@@ -56,7 +56,7 @@ pub trait BulkLaw: fmt::Debug + Send + Sync {
     fn lame_constants(&self) -> LameConstants;
 }
 
-/// A shared law of one's own; equal to itself only.
+/// A shared user-defined law; equal to itself only.
 #[derive(Clone, Debug)]
 pub struct Own(Arc<dyn BulkLaw>);
 
@@ -71,7 +71,7 @@ impl Own {
     }
 }
 
-/// Written as what it says of itself.
+/// Written as its own description.
 impl Serialize for Own {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_str(&format_args!("{:?}", self.0))

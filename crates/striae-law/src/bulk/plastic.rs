@@ -125,7 +125,7 @@ impl Plastic {
     }
 }
 
-/// What a return to the yield surface gives.
+/// Result of a return to the yield surface.
 struct Returned {
     /// Elastic strains.
     strains: Vector3<f64>,

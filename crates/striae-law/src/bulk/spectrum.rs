@@ -31,7 +31,7 @@ use nalgebra::{Matrix3, SVector, SymmetricEigen, Vector3};
 
 /// Components of `G` that are kept.
 const COMPONENTS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
-/// How many they are.
+/// Number of components.
 pub(super) const FLOW: usize = COMPONENTS.len();
 /// Difference of strains below which `D_ab` is that of equal ones: its error is the square,
 /// that of the quotient a unit in the last place over the difference.

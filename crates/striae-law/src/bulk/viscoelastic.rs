@@ -54,10 +54,10 @@ pub struct Viscoelastic {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum InadmissibleBranch {
     /// There is none.
-    #[error("there is no branch, at least one is needed")]
+    #[error("there is no branch, but at least one is needed")]
     None,
     /// A ratio or a time is not positive.
-    #[error("`{name}` of branch {branch} is {value}, it must be positive and finite")]
+    #[error("`{name}` of branch {branch} is {value}, but it must be positive and finite")]
     NotPositive {
         /// Number of the branch, from 0.
         branch: usize,

@@ -37,10 +37,10 @@ pub(super) struct Shape {
     nodes: Vec<usize>,
 }
 
-/// How a constant follows from the parameters.
+/// Relation of a constant to the parameters.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Meaning {
-    /// It is one of them.
+    /// One of the parameters.
     Parameter(usize),
     /// The first one over the second one.
     Quotient(usize, usize),
@@ -59,7 +59,7 @@ impl Shape {
         }
     }
 
-    /// How many parameters there are.
+    /// Number of parameters.
     pub(super) fn count(&self) -> usize {
         match self.sought {
             Sought::Coulomb => 1,
@@ -70,12 +70,12 @@ impl Shape {
         }
     }
 
-    /// Whether the vectors do not depend on the parameters.
+    /// Returns whether the vectors are independent of the parameters.
     pub(super) fn is_linear(&self) -> bool {
         self.sought != Sought::Orthotropic(SlipRule::Associated)
     }
 
-    /// Whether friction across slip bears on the parameters.
+    /// Returns whether friction across the slip direction depends on the parameters.
     pub(super) fn knows_across(&self) -> bool {
         !matches!(self.sought, Sought::Coulomb | Sought::Tabulated)
     }
@@ -116,9 +116,9 @@ impl Shape {
         }
     }
 
-    /// Where dissipation is looked at: number of a reading, angle between textures, slip.
+    /// Places where dissipation is checked: number of a reading, angle between textures, slip.
     ///
-    /// Of two textures it is least where they are opposed or aligned.
+    /// For two textures it is smallest where they are opposed or aligned.
     pub(super) fn judged(&self) -> Vec<(usize, f64, f64)> {
         let around = |theta: f64| {
             let step = TAU / DIRECTIONS as f64;

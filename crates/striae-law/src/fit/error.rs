@@ -1,10 +1,10 @@
-//! Why measurements give no law.
+//! Errors of fits to measurements.
 
 use thiserror::Error;
 
 use crate::friction::FrictionError;
 
-/// Why a law cannot be fitted.
+/// Reason why a law cannot be fitted.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum FitError {
     /// A reading is no number.
@@ -12,7 +12,7 @@ pub enum FitError {
     NotFinite {
         /// Its number, from 0.
         reading: usize,
-        /// What is wrong with it.
+        /// Quantity that is wrong.
         quantity: &'static str,
         /// Its value.
         value: f64,
@@ -41,13 +41,13 @@ pub enum FitError {
     Undetermined {
         /// Name of the law.
         law: &'static str,
-        /// What it needs.
+        /// Requirement on the quantity.
         needed: &'static str,
     },
     /// A level of confidence is none.
     #[error("the level of confidence {0} is refused: it must lie between 0 and 1, such as 0.95")]
     Level(f64),
-    /// What was found is no law.
+    /// The fitted constants do not form a valid law.
     #[error(transparent)]
     Refused(#[from] FrictionError),
 }

@@ -27,7 +27,7 @@ const SETTLED: f64 = 1e-9;
 pub(super) struct Minimum {
     /// `q`.
     pub q: DVector<f64>,
-    /// Whether no bound holds it.
+    /// `true` if the parameter is not held at a bound.
     pub free: bool,
     /// `H^-1`.
     pub inverse: DMatrix<f64>,

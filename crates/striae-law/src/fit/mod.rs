@@ -31,12 +31,12 @@
 //! s^2 = S/(n - k) ,   cov q = s^2 (J^T W J)^-1 ,   q_k +- t sqrt(cov_kk) ,
 //! ```
 //!
-//! with Student's `t` for `n - k` degrees of freedom at the level asked for: exact where the
-//! law is linear in its constants. Quotients have Fieller's interval (1954, "Some problems in
-//! interval estimation", J. R. Stat. Soc. B 16, 175-185), exact too, and without end where
-//! the divisor may be zero. Each interval is about one constant; for all `k` together ask for
-//! the level `1 - (1 - level)/k` (Bonferroni). There are none without degrees of freedom, nor
-//! where the bound on dissipation shapes the law: see [`Standing`].
+//! with Student's `t` for `n - k` degrees of freedom at the requested level: exact where the law is
+//! linear in its constants. Quotients have Fieller's interval (1954, "Some problems in interval
+//! estimation", J. R. Stat. Soc. B 16, 175-185), exact too, and without end where the divisor may
+//! be zero. Each interval is about one constant; for all `k` together ask for the level `1 - (1 -
+//! level)/k` (Bonferroni). There are none without degrees of freedom, nor where the bound on
+//! dissipation shapes the law: see [`Standing`].
 //!
 //! Angles are in radians, friction has no unit.
 
@@ -95,22 +95,22 @@ pub struct Fit {
     pub degrees_of_freedom: usize,
     /// The level of the intervals, such as 0.95.
     pub level: f64,
-    /// Whether the measurements alone shape the law.
+    /// Constraints, besides the measurements, that determined the law.
     pub standing: Standing,
 }
 
 /// A constant of a law.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Constant {
-    /// Which one it is.
+    /// Name of the constant.
     pub name: ConstantName,
     /// Its value.
     pub value: f64,
-    /// The interval in which it lies with the probability asked for; its ends may be infinite.
+    /// The interval in which it lies with the requested probability; its ends may be infinite.
     pub interval: Option<[f64; 2]>,
 }
 
-/// Which constant it is.
+/// Name of a constant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ConstantName {
     /// The key of a deck.
@@ -134,7 +134,7 @@ impl fmt::Display for ConstantName {
     }
 }
 
-/// What shapes a fitted law.
+/// Constraints that determined a fitted law.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Standing {
     /// The measurements alone.
@@ -157,7 +157,7 @@ impl Sought {
         }
     }
 
-    /// What readings have to be like to determine the constants.
+    /// Requirement on measurements for the constants to be determined.
     fn needed(self) -> &'static str {
         match self {
             Self::Coulomb => "a reading",

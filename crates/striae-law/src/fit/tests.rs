@@ -98,7 +98,7 @@ fn measured(
     rosette(sought).into_iter().map(reading).collect()
 }
 
-/// How many constants lie in their intervals, one by one and all together.
+/// Coverage of the constants by their intervals, one by one and all together.
 fn covered(found: &Fit, constants: &[f64]) -> (Vec<bool>, bool) {
     let inside = |(constant, value): (&super::Constant, &f64)| {
         let [low, high] = constant.interval.unwrap();

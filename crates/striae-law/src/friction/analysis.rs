@@ -1,6 +1,5 @@
-//! What a friction law looks like at one angle between the two textures: the slip
-//! surface for polar plots, the angle between traction and slip, extremes, and the
-//! margin by which slip dissipates.
+//! Shape of a friction law at one angle between the two textures: the slip surface for polar plots,
+//! the angle between traction and slip, extremes, and the margin by which slip dissipates.
 //!
 //! Shapes as in [`SlipSurface`]: over `varpi`, in the frame `(e, e_perp)` where `e`
 //! is the direction of `a_ba` (two textures) or the texture `a` (one texture), and
@@ -21,10 +20,10 @@ pub struct Analysis {
     pub samples: Vec<SlipSample>,
     /// Largest traction and largest angle between traction and slip.
     pub extremes: Extremes,
-    /// Where slip dissipates least at this angle between the textures.
+    /// Slip that dissipates least at this angle between the textures.
     pub least: SlipSample,
-    /// Where slip dissipates least over all angles between the textures; `None`
-    /// where the law does not depend on it.
+    /// Slip that dissipates least over all angles between the textures; `None` if the law does not
+    /// depend on this angle.
     pub least_over_textures: Option<LeastDissipation>,
 }
 

@@ -1,9 +1,9 @@
-//! What every friction law must do, in one call.
+//! Battery of properties that every friction law must satisfy, checked in one call.
 //!
-//! A law is held against mechanics at random places: forces stay inside the slip surface,
-//! slip dissipates, the answer turns with its arguments, is the same seen from the other
-//! surface and tangent to both, `K^-1` is the inverse of `K`, and derivatives are exact by
-//! the order at which finite-difference errors fall.
+//! A law is checked against mechanics at random places: tractions stay inside the slip surface,
+//! slip dissipates, the response rotates with its arguments, is independent of the side it is seen
+//! from and tangential to both surfaces, `K^-1` is the inverse of `K`, and derivatives are exact,
+//! judged by the order at which finite-difference errors decrease.
 
 use nalgebra::{DMatrix, DVector, Matrix3, SVector, Vector2, Vector3};
 use num_dual::{DualNum, jacobian};
@@ -20,20 +20,20 @@ pub enum Violation {
     SlipSurface {
         /// `Gamma(-tau)` by the slip surface.
         gauge: f64,
-        /// The same by the kernel.
+        /// Value given by the kernel.
         expected: f64,
     },
     /// Slip dissipates nothing, or friction creates energy.
-    #[error("slip dissipates {0:.6e} times varpi |K z|, it must dissipate a positive amount")]
+    #[error("slip dissipates {0:.6e} times varpi |K z|, but it must dissipate a positive amount")]
     Dissipation(f64),
     /// A force out of the tangent plane.
-    #[error("a force has the normal component {0:.3e} of varpi, it must be tangential")]
+    #[error("a force has the normal component {0:.3e} of varpi, but it must be tangential")]
     NotTangential(f64),
     /// Force or slip differ from those of the closed form.
     #[error("force or slip differ by {0:.3e} from those on the slip surface")]
     ClosedForm(f64),
     /// A rotation of normal and textures does more than turn the answer.
-    #[error("a rotation of normal, textures and slip changes the answer by {0:.3e}")]
+    #[error("a rotation of normal, textures and slip changes the response by {0:.3e}")]
     NotObjective(f64),
     /// Forces on the two surfaces are not opposite.
     #[error("seen from the other surface force or slip differ by {0:.3e}")]
@@ -116,7 +116,7 @@ impl Place {
             .collect()
     }
 
-    /// The same place seen from the other surface.
+    /// Returns this place as seen from the other surface.
     fn swapped(&self) -> Self {
         Self {
             normal: -self.normal,

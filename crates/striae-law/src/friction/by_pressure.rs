@@ -28,8 +28,8 @@
 //! # Admissible functions
 //!
 //! Slip dissipates `varpi` times what the law of the directions does, so `P > 0` for `p > 0`
-//! suffices; all slopes `P'` are finite. Only a table can let friction fall as the pressure
-//! rises; [`falling`](PressureDependence::falling) tells where.
+//! suffices; all slopes `P'` are finite. Only a table can let friction fall as the pressure rises;
+//! [`falling`](PressureDependence::falling) finds where.
 //!
 //! Sources: power law by Archard (1957), "Elastic deformation and the laws of friction", Proc. R.
 //! Soc. Lond. A 243, 190-205, `m = 2/3` for a single elastic contact; the offset by Derjaguin
@@ -43,7 +43,7 @@ use serde::Serialize;
 use super::error::{FrictionError, positive};
 use super::monotone::Monotone;
 
-/// How coefficients of friction depend on the pressure.
+/// Dependence of coefficients of friction on the pressure.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct PressureDependence(Form);
 
@@ -102,7 +102,7 @@ pub const FLOOR_OF_POWER_LAW: f64 = 1e-3;
 /// Floor of adhesion over its pressure, where none is given.
 pub const FLOOR_OF_ADHESION: f64 = 0.05;
 
-/// Points of an interval of a table at which its slope is looked at.
+/// Number of points of an interval of a table at which its slope is checked.
 const SAMPLES: u32 = 64;
 
 /// Pressure over that of a power law below which there is no friction: with `m > 1` it has
@@ -110,9 +110,8 @@ const SAMPLES: u32 = 64;
 const VANISHING: f64 = 1e-90;
 
 impl PressureDependence {
-    /// Coefficients that are the stated ones at the pressure `p0` and go with
-    /// `(p/p0)^(m-1)`; below `floor`, by default [`FLOOR_OF_POWER_LAW`] times `p0`, as the
-    /// module tells.
+    /// Coefficients that are the stated ones at the pressure `p0` and vary with `(p/p0)^(m-1)`;
+    /// below `floor`, by default [`FLOOR_OF_POWER_LAW`] times `p0`, as the module describes.
     ///
     /// # Errors
     /// When a constant is not positive.
@@ -130,7 +129,7 @@ impl PressureDependence {
     }
 
     /// Friction that adhesion adds to, `varpi = mu (p + p_ad)`; below `floor`, by default
-    /// [`FLOOR_OF_ADHESION`] times `p_ad`, as the module tells.
+    /// [`FLOOR_OF_ADHESION`] times `p_ad`, as the module describes.
     ///
     /// # Errors
     /// When a constant is not positive.
@@ -142,7 +141,7 @@ impl PressureDependence {
         }))
     }
 
-    /// Friction that comes to the shear stress `tau` smoothly, `varpi = tau tanh(mu p/tau)` at
+    /// Friction that approaches the shear stress `tau` smoothly, `varpi = tau tanh(mu p/tau)` at
     /// rest.
     ///
     /// # Errors
@@ -198,7 +197,7 @@ impl PressureDependence {
         }
     }
 
-    /// Pressure up to which the dependence is seen; `None` where there is none.
+    /// Pressure up to which the dependence is visible; `None` if there is none.
     pub fn scale(&self) -> Option<f64> {
         match &self.0 {
             Form::None => None,

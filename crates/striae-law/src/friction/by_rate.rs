@@ -19,8 +19,8 @@
 //! or zero in endless slip. All slopes `R'` are finite: `d >= 1`, and a logarithm that falls must
 //! have a limit, before which it stays positive.
 //!
-//! Where friction falls with the rate, an increment can have several solutions, or Newton's method
-//! go backwards from rest. [`weakest_rate`](RateDependence::weakest_rate) is the rate at which
+//! If friction falls with the rate, an increment can have several solutions, or Newton's method go
+//! backwards from rest. [`weakest_rate`](RateDependence::weakest_rate) is the rate at which
 //! friction has fallen most; the contact rows begin there.
 //!
 //! Sources: Oden & Martins (1985), "Models and computational methods for dynamic friction
@@ -37,7 +37,7 @@ use serde::Serialize;
 use super::error::{FrictionError, finite, not_negative, positive, within};
 use super::monotone::Monotone;
 
-/// How coefficients of friction depend on the slip rate.
+/// Dependence of coefficients of friction on the slip rate.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct RateDependence(Form);
 
@@ -149,7 +149,7 @@ impl RateDependence {
         self.0 != Form::None
     }
 
-    /// Rate up to which the dependence is seen; `None` where there is none.
+    /// Rate up to which the dependence is visible; `None` if there is none.
     pub fn scale(&self) -> Option<f64> {
         match &self.0 {
             Form::None => None,
@@ -258,8 +258,8 @@ impl Decay {
         }
     }
 
-    /// Where `(1 - c) g(u) = k v_s` with `g(u) = d u^(d-1) exp(-u^d)` behind its largest value,
-    /// which is at `u^d = (d - 1)/d`.
+    /// Rate at which `(1 - c) g(u) = k v_s` with `g(u) = d u^(d-1) exp(-u^d)` beyond its largest
+    /// value, which is at `u^d = (d - 1)/d`.
     fn weakest_rate(&self) -> Option<f64> {
         let (fall, d) = (1.0 - self.kinetic_over_static, self.exponent);
         let rise = self.viscous * self.slip_rate;

@@ -21,7 +21,7 @@ use serde::Serialize;
 use super::error::{FrictionError, positive};
 use super::monotone::Monotone;
 
-/// How coefficients of friction depend on the accumulated slip.
+/// Dependence of coefficients of friction on the accumulated slip.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct SlipDependence(Form);
 
@@ -92,7 +92,7 @@ impl SlipDependence {
         }
     }
 
-    /// Accumulated slip up to which the dependence is seen; `None` where there is none.
+    /// Accumulated slip up to which the dependence is visible; `None` if there is none.
     pub fn scale(&self) -> Option<f64> {
         match &self.0 {
             Form::None => None,

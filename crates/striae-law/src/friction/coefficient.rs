@@ -63,17 +63,17 @@ impl Coefficient {
         self.at_rest
     }
 
-    /// How it depends on the pressure.
+    /// Dependence on the pressure.
     pub fn by_pressure(&self) -> &PressureDependence {
         &self.by_pressure
     }
 
-    /// How it depends on the slip rate.
+    /// Dependence on the slip rate.
     pub fn by_rate(&self) -> &RateDependence {
         &self.by_rate
     }
 
-    /// How it depends on the accumulated slip.
+    /// Dependence on the accumulated slip.
     pub fn by_slip(&self) -> &SlipDependence {
         &self.by_slip
     }

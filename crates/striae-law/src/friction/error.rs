@@ -1,4 +1,4 @@
-//! What can be wrong with the constants of a friction law.
+//! Errors in the constants of a friction law.
 
 use thiserror::Error;
 
@@ -12,7 +12,7 @@ pub enum FrictionError {
         name: &'static str,
         /// Its value.
         value: f64,
-        /// What it has to be, to complete "it must be ...".
+        /// Requirement on the value, to complete "it must be ...".
         expected: &'static str,
     },
     /// Friction between two textured surfaces would create energy.
@@ -83,8 +83,7 @@ pub enum FrictionError {
     },
     /// A coefficient of a table is not positive.
     #[error(
-        "mu = {mu} at the angle {degrees:.3} degrees is refused: it must be positive and finite, \
-         for friction would create energy or vanish there"
+        "mu = {mu} at the angle {degrees:.3} degrees is refused: it must be positive and finite, otherwise friction would create energy or vanish there"
     )]
     TableCoefficient {
         /// The coefficient.
@@ -116,8 +115,7 @@ pub enum FrictionError {
     },
     /// A table of factors is too short, or has not one factor a place.
     #[error(
-        "the table has {of_places}: {places}, but {of_values}: {values}; as many of both are \
-         needed, at least two"
+        "the table has {of_places}: {places}, but {of_values}: {values}; it needs equally many of both, at least two"
     )]
     FactorLengths {
         /// Name of the places.
@@ -147,7 +145,7 @@ pub enum FrictionError {
     LogarithmVanishes {
         /// The factor.
         factor: f64,
-        /// Where friction vanishes.
+        /// Slip rate at which friction vanishes.
         rate: f64,
     },
 }

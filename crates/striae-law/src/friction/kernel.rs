@@ -106,7 +106,7 @@ impl<'a, D: DualNum<Primitive = f64> + Copy> Kernel<'a, D> {
         }
     }
 
-    /// The same law with slip along `K z`.
+    /// Copy of the law with slip along `K z`.
     pub fn with_slip_map(self, k: Matrix3<D>, k_inverse: Matrix3<D>) -> Self {
         Self {
             k,

@@ -106,10 +106,10 @@ impl Law {
     }
 }
 
-/// Which of the two surfaces must carry a texture.
+/// Surfaces, of the two, that must carry a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RequiredTextures {
-    /// Textures are not looked at.
+    /// Textures have no effect.
     Any,
     /// Exactly one of the two surfaces.
     One,
@@ -258,7 +258,7 @@ impl Friction {
         &self.coefficient
     }
 
-    /// Whether how far `z` reaches depends on its direction; see [`Kernel::reach`].
+    /// Returns whether the reach of `z` depends on its direction; see [`Kernel::reach`].
     pub fn turns(&self) -> bool {
         matches!(self.law, Law::Tabulated(_))
     }
@@ -268,7 +268,7 @@ impl Friction {
         self.coefficient.at_rest() == 0.0
     }
 
-    /// Whether `varpi` depends on the slip rate.
+    /// Returns whether `varpi` depends on the slip rate.
     pub fn depends_on_rate(&self) -> bool {
         self.coefficient.by_rate().is_some()
     }
@@ -288,7 +288,7 @@ impl Friction {
         self.shear_cap
     }
 
-    /// Which surfaces must carry a texture for [`Friction::kernel`] to exist.
+    /// Surfaces that must carry a texture for [`Friction::kernel`] to exist.
     pub fn required_textures(&self) -> RequiredTextures {
         match &self.law {
             Law::Frictionless | Law::Coulomb => RequiredTextures::Any,

@@ -8,8 +8,8 @@
 //! m_0 = [(2 h_0 + h_1) s_0 - h_0 s_1]/(h_0 + h_1) ,   between 0 and 3 s_0
 //! ```
 //!
-//! It goes neither above the largest value nor below the least, and is continuous with its
-//! derivative but for kinks at the two ends, where the derivative is that of the constant.
+//! The interpolant stays between the smallest and the largest value, and has a continuous
+//! derivative except for kinks at the two ends, where the derivative is that of the constant.
 
 use std::fmt;
 

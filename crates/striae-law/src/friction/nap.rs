@@ -19,9 +19,8 @@
 //! terms for snake scales, Hu, Nirody, Scott & Shelley (2009), "The mechanics of
 //! slithering locomotion", PNAS 106, 10081-10085, doi:10.1073/pnas.0812533106.
 //!
-//! Admissible iff slip dissipates in all directions, see
-//! [`Ellipse::least_dissipation`]: with `P = (mu_b + mu_f)/2`,
-//! `h = (mu_b - mu_f)/2` and `P > mu_t`, `|h| < 2 (P - mu_t)` this asks for
+//! Admissible iff slip dissipates in all directions, see [`Ellipse::least_dissipation`]: with `P =
+//! (mu_b + mu_f)/2`, `h = (mu_b - mu_f)/2` and `P > mu_t`, `|h| < 2 (P - mu_t)` this requires
 //! `mu_t > h^2/(4 (P - mu_t))`.
 
 use nalgebra::{Matrix3, Vector3};

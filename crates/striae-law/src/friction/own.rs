@@ -13,7 +13,7 @@ use super::{FrictionError, Kernel, RequiredTextures, Textures};
 /// First-order dual numbers over the normal and the textures of the two surfaces.
 pub type Lane = DualSVec64<9>;
 
-/// A friction law of one's own, for [`Friction::own`](super::Friction::own).
+/// A user-defined friction law, for [`Friction::own`](super::Friction::own).
 ///
 /// A law states its [`Kernel`], `-tau = L z + varpi eta` with `|z| <= varpi` and slip along
 /// `K z`, at a point with a unit normal and unit textures. It is asked with dual numbers,
@@ -57,18 +57,18 @@ pub trait FrictionLaw: fmt::Debug + Send + Sync {
     /// The name of the law in messages and figures.
     fn name(&self) -> &str;
 
-    /// Which surfaces must carry a texture.
+    /// Surfaces that must carry a texture.
     fn required_textures(&self) -> RequiredTextures;
 
     /// The law at a point with the unit normal of the surface that carries it.
     fn kernel(&self, normal: &Vector3<Lane>, textures: &Textures<Lane>) -> Kernel<'static, Lane>;
 }
 
-/// A shared law of one's own; equal to itself only.
+/// A shared user-defined law; equal to itself only.
 #[derive(Clone, Debug)]
 pub struct Own(Arc<dyn FrictionLaw>);
 
-/// Written as what it says of itself.
+/// Written as its own description.
 impl Serialize for Own {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_str(&format_args!("{:?}", self.0))
@@ -81,7 +81,7 @@ impl PartialEq for Own {
     }
 }
 
-/// Angles between the textures at which a law is looked at when it is made.
+/// Number of angles between the textures at which a law is checked when it is made.
 const TEXTURE_ANGLES: u32 = 72;
 
 impl Own {
@@ -118,7 +118,7 @@ impl Own {
         normal: &Vector3<D>,
         textures: &Textures<D>,
     ) -> Kernel<'static, D> {
-        debug_assert!(D::NDERIV <= 1, "laws of one's own know first derivatives");
+        debug_assert!(D::NDERIV <= 1, "user-defined laws have first derivatives");
         let none = Vector3::zeros();
         let (own, opposite) = (textures.own, textures.opposite);
         let given = [*normal, own.unwrap_or(none), opposite.unwrap_or(none)];
@@ -162,7 +162,7 @@ fn seeded(x: &Vector3<f64>, first: usize) -> Vector3<Lane> {
     Vector3::from_fn(|i, _| Lane::from_re(x[i]).derivative(first + i))
 }
 
-/// What the arguments differ from their values by.
+/// Derivative parts of the arguments: each argument minus its value.
 fn change<D: DualNum<Primitive = f64> + Copy>(given: &[Vector3<D>; 3]) -> [D; 9] {
     std::array::from_fn(|at| {
         let x = given[at / 3][at % 3];

@@ -10,11 +10,11 @@
 //! m_i = 3 (h_(i-1) + h_i)/[(2 h_i + h_(i-1))/s_(i-1) + (h_i + 2 h_(i-1))/s_i]   elsewhere.
 //! ```
 //!
-//! It is continuous with its derivative, also across the seam from the last point to
-//! the first one a turn later. `|m| <= 3 min |s|` makes it monotone between the
-//! points: it goes through all of them and neither above the largest nor below the
-//! least. Of a smooth function sampled `h` apart it is off by `O(h^2)`, next to
-//! extremes, and by less elsewhere. Angles are in radians.
+//! The interpolant has a continuous derivative, also across the seam from the last point to the
+//! first one a turn later. `|m| <= 3 min |s|` makes it monotone between the points: it passes
+//! through all of them and stays between the smallest and the largest value. For a smooth function
+//! sampled at a distance `h` its error is `O(h^2)` next to extremes and smaller elsewhere. Angles
+//! are in radians.
 //!
 //! Source: Fritsch & Carlson (1980), "Monotone piecewise cubic interpolation", SIAM
 //! J. Numer. Anal. 17, 238-246, doi:10.1137/0717021, with the slopes of Fritsch &

@@ -6,7 +6,7 @@
 use nalgebra::Vector2;
 use serde::Serialize;
 
-/// Which slip direction belongs to a traction on the slip surface.
+/// Rule that assigns a slip direction to a traction on the slip surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum SlipRule {
     /// Each component of friction opposes that component of slip: `K = I`.

@@ -11,10 +11,10 @@
 //! -tau = mu(phi) p d    while slipping
 //! ```
 //!
-//! with `phi` the direction of `z` and `mu(phi)` the monotone periodic cubic through
-//! the table. Friction opposes slip in all directions: a table of coefficients says how
-//! large friction is, and knows no force across slip. The slip surface is the table
-//! itself as a polar curve, star-shaped and convex or not.
+//! with `phi` the direction of `z` and `mu(phi)` the monotone periodic cubic through the table.
+//! Friction opposes slip in all directions: a table of coefficients states the magnitude of
+//! friction only, without a force across slip. The slip surface is the table itself as a polar
+//! curve, star-shaped and convex or not.
 //!
 //! Source: star-shaped slip surfaces as measured and used by Walker & Leine (2019),
 //! "Set-valued anisotropic dry friction laws: formulation, experimental verification
@@ -93,7 +93,7 @@ impl Tabulated {
 }
 
 impl<'a, D: DualNum<Primitive = f64> + Copy> Radial<'a, D> {
-    /// That of a table, with the axes from which and towards which `phi` turns.
+    /// Kernel of a table, with the axes from which and towards which `phi` rotates.
     pub(super) fn new(law: &'a Tabulated, axes: [Vector3<D>; 2]) -> Self {
         Self { law, axes }
     }

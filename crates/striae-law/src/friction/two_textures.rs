@@ -38,10 +38,9 @@
 //! D = 1 - c_mag + (m^2/2) q(I1) ,   q = c_mag + c_ang (c_cen + I1) I1 ,   |I1| <= m .
 //! ```
 //!
-//! The least `q` falls as `m`, and with it the range of `I1`, grows. If it is
-//! negative for `m = 2`, the least `D` is found there; if not, at `m = 0`. So
-//! only opposed and aligned textures have to be looked at, and the constants are
-//! admissible iff `c_mag < 1` and
+//! The least `q` falls as `m`, and with it the range of `I1`, grows. If it is negative for `m = 2`,
+//! the least `D` is found there; if not, at `m = 0`. So only opposed and aligned textures have to
+//! be checked, and the constants are admissible iff `c_mag < 1` and
 //!
 //! ```text
 //! 1 + c_mag > c_ang c_cen^2 / 2            for c_ang >= 0, |c_cen| <= 4

@@ -1,9 +1,9 @@
 //! The composite tetrahedron of ten nodes: four corners and the middles of the six edges.
 //!
-//! It lies on the natural coordinates of the linear tetrahedron and is divided into twelve
-//! linear ones, one at each corner and eight around the middle of the octahedron that is
-//! left, the mean of the six middles of edges ([`COMPOSITE_PARTS`]). With the linear functions
-//! `l_0 .. l_3` of the corners and
+//! The element lies on the natural coordinates of the linear tetrahedron and is divided into twelve
+//! linear ones, one at each corner and eight around the middle of the octahedron that is left, the
+//! mean of the six middles of edges ([`COMPOSITE_PARTS`]). With the linear functions `l_0 .. l_3`
+//! of the corners and
 //!
 //! ```text
 //! p = l_0 + l_1 - 1/2,   q = l_0 + l_2 - 1/2,   r = l_0 + l_3 - 1/2,

@@ -33,7 +33,8 @@ pub struct Block {
     pub size: Vec3,
     /// Number of hexahedra along `x, y, z`; default 1.
     pub divisions: [usize; 3],
-    /// What the hexahedra are divided into; default hexahedra. Wedges stand along `z`.
+    /// Kind of cell that the hexahedra are divided into; hexahedra by default. Wedges extend along
+    /// `z`.
     pub cells: CellKind,
     /// Interval lengths along `x, y, z`; default uniform.
     pub gradings: [Grading; 3],

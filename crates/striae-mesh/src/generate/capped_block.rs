@@ -35,18 +35,19 @@ pub struct CappedBlock {
     pub fine_depth: f64,
     /// Largest ratio of neighbouring sizes outside; default 1.3.
     pub growth: f64,
-    /// How much of the block is meshed; default all of it.
+    /// Part of the block that is meshed; all of it by default.
     pub part: Part,
-    /// What the hexahedra are divided into; default hexahedra. Wedges stand along `z`.
+    /// Kind of cell that the hexahedra are divided into; hexahedra by default. Wedges extend along
+    /// `z`.
     pub cells: CellKind,
 }
 
-/// How much of a block is meshed.
+/// Part of a block that is meshed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
     /// All of it.
     Whole,
-    /// What lies at `y >= 0` from the apex; the side `ymin` is the plane of symmetry.
+    /// Half with `y >= 0` as seen from the apex; its side `ymin` is the plane of symmetry.
     Half,
 }
 
@@ -67,7 +68,7 @@ impl Default for CappedBlock {
     }
 }
 
-/// Height at the corners over the rise of the cap that is none.
+/// Ratio of the height at the corners to the rise of the cap below which it counts as zero.
 const FLAT: f64 = 1e-6;
 
 impl CappedBlock {

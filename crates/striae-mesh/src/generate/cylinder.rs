@@ -28,7 +28,7 @@ pub struct Cylinder {
     pub divisions: [usize; 3],
     /// Interval lengths along the axis; default uniform.
     pub axial_grading: Grading,
-    /// How much of it is meshed; default all of it.
+    /// Part of the cylinder that is meshed; all of it by default.
     pub sector: Sector,
 }
 

@@ -15,12 +15,12 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-/// How much of a disc is meshed.
+/// Part of a disc that is meshed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sector {
     /// All of it.
     Whole,
-    /// What lies at `x >= 0` and `y >= 0` from the middle.
+    /// Quarter with `x >= 0` and `y >= 0`, seen from the centre.
     Quarter,
 }
 

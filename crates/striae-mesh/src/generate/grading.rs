@@ -1,4 +1,4 @@
-//! How an edge is divided into intervals.
+//! Division of an edge into intervals.
 //!
 //! Interval lengths `l_0 .. l_{n-1}` are scaled so that they sum up to the
 //! length of the edge, and the nodes lie at their partial sums.

@@ -11,7 +11,7 @@ pub(super) struct Grid {
     closure: Closure,
 }
 
-/// Whether the last layer of nodes along `k` is the first one.
+/// Closure of the grid: whether the last layer of nodes along `k` coincides with the first one.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Closure {
     Open,

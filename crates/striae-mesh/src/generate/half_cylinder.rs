@@ -17,7 +17,7 @@ pub struct HalfCylinder {
     /// Contact point: the lowest point of the lower half, the highest of the
     /// upper half, in the side `ymin`; default the origin.
     pub apex: Vec3,
-    /// Which half; default the lower one, arc downwards.
+    /// Half of the cylinder; the lower one by default, arc downwards.
     pub half: Half,
     /// Radius; default 8.
     pub radius: f64,

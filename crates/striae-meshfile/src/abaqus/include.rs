@@ -52,7 +52,8 @@ impl Text {
         fault.of(&self.files[file])
     }
 
-    /// Where a line of the text is, in words; with the name of the file if it is an included one.
+    /// Location of a line of the text, in words; with the name of the file if it is an included
+    /// one.
     pub(in super::super) fn place(&self, line: usize) -> String {
         match self.origin(line) {
             (0, line) => format!("line {line}"),
@@ -106,7 +107,7 @@ impl Text {
         Ok(())
     }
 
-    /// What comes next is a line of a file.
+    /// Starts a section that begins with a line of a file.
     fn begin(&mut self, file: usize, line: usize) {
         let first = self.count + 1;
         self.pieces.push(Piece { first, file, line });
@@ -134,7 +135,7 @@ fn included(
     let file = path.parent().unwrap_or(Path::new("")).join(name);
     if within.contains(&identity(&file)) {
         let found = format!("{}, which includes this file", quoted(name));
-        let expected = "a file that does not lead back here";
+        let expected = "a file that does not include this one again";
         return Err(MeshFileFault::line(line, expected, found));
     }
     match super::super::text(&file) {
@@ -146,14 +147,14 @@ fn included(
     }
 }
 
-/// Whether a line is the keyword `*INCLUDE`.
+/// Returns whether a line is the keyword `*INCLUDE`.
 fn is_include(line: &str) -> bool {
     let keyword = line.trim_start().strip_prefix('*');
     let name = keyword.map(|keyword| keyword.split(',').next().unwrap_or_default());
     name.is_some_and(|name| name.trim().eq_ignore_ascii_case("INCLUDE"))
 }
 
-/// What two paths to the same file have in common.
+/// Canonical path, equal for all paths to one file.
 fn identity(path: &Path) -> PathBuf {
     path.canonicalize().unwrap_or_else(|_| path.to_owned())
 }

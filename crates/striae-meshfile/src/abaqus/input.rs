@@ -30,7 +30,7 @@ impl InputFile {
         keywords(&self.text.lines).map_err(|fault| self.text.placed(fault))
     }
 
-    /// Where a line of the text is, in words.
+    /// Location of a line of the text, in words.
     pub fn place(&self, line: usize) -> String {
         self.text.place(line)
     }
@@ -67,7 +67,7 @@ impl Points {
     }
 }
 
-/// A number, its exponent also marked with `D`; `None` where it is none or not finite.
+/// A number, whose exponent may be marked with `D`; `None` if it is not a number or not finite.
 pub fn finite(word: &str) -> Option<f64> {
     super::number(word).filter(|number| number.is_finite())
 }

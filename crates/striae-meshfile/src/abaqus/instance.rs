@@ -15,8 +15,8 @@ use super::keywords::{Keyword, Row};
 use super::number;
 use striae_mesh::Vec3;
 
-/// Where a part is put: what its numbers are raised by, its labels begin with, and how its
-/// nodes move.
+/// Placement of a part: the offset of its numbers, the prefix of its labels, and the motion of its
+/// nodes.
 pub(super) struct Placement {
     pub(super) raise: u64,
     pub(super) prefix: String,
@@ -39,7 +39,7 @@ struct Turn {
 }
 
 impl Keyword<'_> {
-    /// Where an `*INSTANCE` puts a point of its part; `None` where its rows are faulty.
+    /// Image of a point of its part under an `*INSTANCE`; `None` if its rows are faulty.
     pub fn placed(&self, x: Vec3) -> Option<Vec3> {
         Motion::read(self).ok().map(|motion| motion.moved(x))
     }
@@ -70,7 +70,7 @@ impl Motion {
         }
     }
 
-    /// Where a point comes to.
+    /// Image of a point.
     pub(super) fn moved(&self, x: Vec3) -> Vec3 {
         let x = x + self.translation;
         let Some(Turn {

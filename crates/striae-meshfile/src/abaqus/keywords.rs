@@ -23,7 +23,7 @@ pub struct Row<'a> {
     pub line: usize,
     /// The words, without white space around them.
     pub words: Vec<&'a str>,
-    /// Whether a comma ends the row, so that the next one continues it.
+    /// Record of whether a comma ends the row, so that the next one continues it.
     continued: Continued,
 }
 

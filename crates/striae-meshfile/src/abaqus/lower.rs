@@ -38,7 +38,7 @@ const FACETS: [&str; 14] = [
 /// Beginnings of the types of lines.
 const LINES: [&str; 7] = ["T2D", "T3D", "B2", "B3", "PIPE", "R2D", "RB"];
 
-/// Whether elements of this type, in capitals, are solids.
+/// Returns whether elements of this type, in capitals, are solids.
 pub(super) fn is_solid(kind: &str) -> bool {
     SOLIDS.iter().any(|start| kind.starts_with(start))
 }

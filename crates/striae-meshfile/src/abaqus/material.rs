@@ -287,7 +287,7 @@ fn prony(option: &Keyword<'_>) -> Result<Vec<[f64; 2]>, MeshFileFault> {
     branches.retain(|[g, _]| *g > 0.0);
     let sum: f64 = branches.iter().map(|[g, _]| g).sum();
     if branches.is_empty() || sum >= 1.0 {
-        return Err(option.fault("shares g above 0 that sum up to less than 1"));
+        return Err(option.fault("shares g above 0 with a sum below 1"));
     }
     Ok(branches)
 }

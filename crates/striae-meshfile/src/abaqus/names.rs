@@ -1,8 +1,8 @@
-//! What words of an Abaqus file stand for: numbers and labels, with and without an instance.
+//! Names in an Abaqus file: numbers and labels, with and without an instance.
 //!
-//! Where there are several instances of parts, the nodes and elements of the `i`-th (from 0)
-//! have their numbers plus `i 2^40` in the whole, and the labels of its sets begin with its
-//! name and a dot. A single instance keeps its numbers and labels.
+//! If there are several instances of parts, the nodes and elements of the `i`-th (from 0) get their
+//! numbers plus `i 2^40` in the whole, and the labels of its sets begin with its name and a dot. A
+//! single instance keeps its numbers and labels.
 
 use super::super::MeshFileFault;
 use super::super::lines::parsed;
@@ -15,7 +15,7 @@ use std::collections::BTreeSet;
 #[derive(Clone, Default)]
 pub(super) struct Names {
     instances: Vec<String>,
-    /// Whether the file has more than one instance.
+    /// `true` if the file has more than one instance.
     several: bool,
     /// The instance that a keyword speaks of.
     current: Option<usize>,
@@ -55,7 +55,7 @@ impl Names {
         }
     }
 
-    /// Whether there is an instance.
+    /// Returns whether there is no instance.
     pub(super) fn is_empty(&self) -> bool {
         self.instances.is_empty()
     }

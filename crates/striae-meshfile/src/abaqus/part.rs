@@ -16,7 +16,7 @@ use super::sets::{LabelSets, Member};
 use std::collections::{BTreeMap, HashSet};
 use striae_mesh::{CellKind, NodeId, Vec3};
 
-/// What a part is made of.
+/// Content of a part.
 #[derive(Clone)]
 pub(super) struct Part {
     nodes: BTreeMap<u64, Vec3>,
@@ -31,7 +31,7 @@ pub(super) struct Part {
     asked: Option<Asked>,
 }
 
-/// What a keyword is used for.
+/// Use of a keyword.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Use {
     Mesh,
@@ -125,7 +125,7 @@ impl Part {
         Ok(())
     }
 
-    /// Notes what the letters of a kind of element ask for.
+    /// Notes what the letters of a kind of element request.
     fn ask(&mut self, name: &str) {
         let letters = name
             .trim_start_matches("C3D")
@@ -297,7 +297,7 @@ impl Part {
         }
     }
 
-    /// Whether all numbers are below the limit where there are several instances.
+    /// Returns whether all numbers are below the limit that holds for several instances.
     pub(super) fn has_numbers_of_instances(&self) -> bool {
         let nodes = self.nodes.keys().copied();
         let elements = self.elements.iter().map(|element| element.number);

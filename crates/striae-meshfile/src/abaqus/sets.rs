@@ -4,7 +4,7 @@ use super::super::Place;
 use super::instance::Placement;
 use std::collections::BTreeMap;
 
-/// What the numbers of sets are of.
+/// Kind of the members of sets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Member {
     Node,
@@ -32,7 +32,7 @@ impl LabelSets {
         Self { of, sets }
     }
 
-    /// What the members are.
+    /// Kind of the members.
     pub(super) fn of(&self) -> Member {
         self.of
     }

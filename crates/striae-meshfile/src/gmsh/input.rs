@@ -25,7 +25,7 @@ pub(super) struct Input<'a> {
     words: SplitWhitespace<'a>,
 }
 
-/// How numbers are written.
+/// Encoding of numbers.
 #[derive(Clone, Copy, PartialEq)]
 enum Form {
     Text,
@@ -33,15 +33,15 @@ enum Form {
     Binary(Order, usize),
 }
 
-/// Which byte of a number comes first.
+/// Order of the bytes of a number.
 #[derive(Clone, Copy, PartialEq)]
 enum Order {
     Little,
     Big,
 }
 
-/// A file of text with all that is not UTF-8 replaced, which can only matter in names; a
-/// binary file as it is.
+/// A file of text with all that is not UTF-8 replaced, which can only matter in names; a binary
+/// file unchanged.
 pub(super) fn readable(bytes: &[u8]) -> Cow<'_, [u8]> {
     let mut lines = bytes.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii);
     let format = lines.find(|line| !line.is_empty() && !line.starts_with(b"$"));
@@ -72,7 +72,7 @@ impl<'a> Input<'a> {
         self.form != Form::Text
     }
 
-    /// Where the record stands that was read last.
+    /// Location of the record that was read last.
     pub(super) fn place(&self) -> Place {
         match self.form {
             Form::Text => Place::Line(self.lines),
@@ -242,7 +242,7 @@ impl<'a> Input<'a> {
             self.lines += 1;
             let line = std::str::from_utf8(line.trim_ascii()).map_err(|_| {
                 let place = Place::Byte(place);
-                MeshFileFault::at(place, "a line of text", "bytes that are none")
+                MeshFileFault::at(place, "a line of text", "bytes that are not text")
             })?;
             if !line.is_empty() {
                 return Ok(Some(line));

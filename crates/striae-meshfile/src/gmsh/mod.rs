@@ -27,7 +27,7 @@ pub(super) fn body(bytes: &[u8]) -> Result<super::Reading, MeshFileFault> {
     collected(bytes)?.mesh()
 }
 
-/// What the file says of the mesh of a body.
+/// Mesh of a body as stated in the file.
 pub(super) fn collected(bytes: &[u8]) -> Result<Collected, MeshFileFault> {
     let file = File::read(bytes)?;
     let mut mesh = Collected::default();
@@ -69,7 +69,7 @@ pub(super) fn rigid_surface(bytes: &[u8]) -> Result<RigidSurfaceMesh, MeshFileFa
     Ok(numbered_rigid_surface(bytes)?.0)
 }
 
-/// The same, and the number of every node in the file.
+/// Rigid surface, with the number of every node in the file.
 pub(super) fn numbered_rigid_surface(
     bytes: &[u8],
 ) -> Result<(RigidSurfaceMesh, Vec<u64>), MeshFileFault> {

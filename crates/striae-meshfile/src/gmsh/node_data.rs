@@ -40,7 +40,7 @@ pub(crate) fn node_data(bytes: &[u8], name: Option<&str>) -> Result<NodeVectors,
 /// One section `$NodeData`.
 struct Section {
     name: String,
-    /// Where the number of components stands.
+    /// Location of the number of components.
     place: Place,
     components: usize,
     /// Place, number of the node and values.

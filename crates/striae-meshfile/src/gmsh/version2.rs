@@ -61,7 +61,7 @@ fn blocks(input: &mut Input<'_>, count: usize, file: &mut File) -> Result<(), Me
     Ok(())
 }
 
-/// What follows of an element: its tags and nodes.
+/// Remainder of an element: its tags and nodes.
 fn element(
     input: &mut Input<'_>,
     number: u64,

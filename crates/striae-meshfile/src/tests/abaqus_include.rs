@@ -68,11 +68,11 @@ fn faults_name_the_file_they_are_in_and_its_line() {
         ),
         (
             "*INCLUDE, INPUT=main.inp\n",
-            "more.inp: line 1: expected a file that does not lead back here, found `main.inp`, which includes this file",
+            "more.inp: line 1: expected a file that does not include this one again, found `main.inp`, which includes this file",
         ),
         (
             "\n*INCLUDE, INPUT=more.inp\n",
-            "more.inp: line 2: expected a file that does not lead back here, found `more.inp`, which includes this file",
+            "more.inp: line 2: expected a file that does not include this one again, found `more.inp`, which includes this file",
         ),
         (
             "*INCLUDE\n",

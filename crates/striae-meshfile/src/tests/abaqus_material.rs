@@ -181,7 +181,7 @@ fn what_has_no_counterpart_is_named() {
         ),
         (
             "*ELASTIC\n1., .3\n*VISCOELASTIC, TIME=PRONY\n.6, 0., 1.\n.4, 0., 2.\n",
-            "expected shares g above 0 that sum up to less than 1, found `*VISCOELASTIC, TIME=PRONY`",
+            "expected shares g above 0 with a sum below 1, found `*VISCOELASTIC, TIME=PRONY`",
         ),
         (
             "*ELASTIC\n1., .3\n*VISCOELASTIC, FREQUENCY=PRONY\n.2, .1, 1.\n",

@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use striae_mesh::CellKind;
 use striae_mesh::generate::Block;
 
-/// Which byte of a number comes first.
+/// Order of the bytes of a number.
 #[derive(Clone, Copy, Debug)]
 enum Order {
     Little,

@@ -36,7 +36,7 @@ fn node_data_are_found_by_name_among_others() {
         assert_eq!(at(&vectors, 7), Vec3::new(0.5, -1.0, 0.2));
         assert_eq!(at(&vectors, 3), Vec3::z());
         let none = vectors.of_nodes([3, 4]).map(drop);
-        assert_explained(none, ["gives no vector", "node 4 of the mesh"]);
+        assert_explained(none, ["has no vector", "node 4 of the mesh"]);
         let result = |name| gmsh::node_data(text.as_bytes(), name).map(drop);
         assert_explained(result(Some("hair")), ["`hair` once", "`heat`, `fibres`"]);
         assert_explained(result(None), ["the name of one", "`heat`, `fibres`"]);

@@ -24,7 +24,7 @@ struct Grid {
     first: Vec<i64>,
 }
 
-/// Which triangle of a wedge comes first.
+/// Triangle of a wedge that comes first.
 #[derive(Clone, Copy)]
 enum Wedge {
     Inward,
@@ -90,7 +90,7 @@ impl Grid {
     }
 }
 
-/// How a file is written.
+/// Encoding of a file.
 #[derive(Clone, Copy, Debug)]
 struct How {
     format: Format,
@@ -460,7 +460,7 @@ fn broken_xml_files_are_explained() {
             How::ASCII,
             "</Piece>",
             "",
-            "line 78: expected XML, found text that is none: expected 'Piece' tag, not 'UnstructuredGrid'",
+            "line 78: expected XML, found invalid text: expected 'Piece' tag, not 'UnstructuredGrid'",
         ),
         (
             How::ASCII,
@@ -640,8 +640,7 @@ fn broken_legacy_files_are_explained() {
             "3.0",
             "CELLS 7 39",
             "CELLS 7 38",
-            "cell 6: expected the number of its points and these, found a list of 38 numbers \
-             that does not fit",
+            "cell 6: expected a cell size followed by as many points, found a list of 38 numbers that does not match",
         ),
         (
             "5.1",

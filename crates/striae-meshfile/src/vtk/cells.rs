@@ -8,7 +8,7 @@
 use super::super::{MeshFileFault, Place};
 use striae_mesh::{CellKind, Vec3};
 
-/// What a cell is.
+/// Content of a cell.
 #[derive(Debug, PartialEq)]
 pub(super) enum Cell {
     /// A solid with its nodes in the order of `division.rs`.

@@ -91,7 +91,7 @@ fn attributed(
     Err(words.fault(&format!("values of {expected} {of}"), count.to_string()))
 }
 
-/// What attributes belong to.
+/// Entities that attributes belong to.
 #[derive(Clone, Copy)]
 enum Of {
     Cells,
@@ -115,8 +115,8 @@ impl File<'_> {
                 rest.split_at_checked(count)
             });
             let (cell, behind) = cell.ok_or_else(|| {
-                let expected = "the number of its points and these";
-                let found = format!("a list of {size} numbers that does not fit");
+                let expected = "a cell size followed by as many points";
+                let found = format!("a list of {size} numbers that does not match");
                 MeshFileFault::at(Place::Cell(at), expected, found)
             })?;
             grid.nodes.extend(cell);
@@ -187,7 +187,7 @@ impl File<'_> {
             .collect())
     }
 
-    /// How colours are written.
+    /// Type of the numbers of colours.
     fn colours(&self) -> Number {
         match self.form {
             Form::Text => Number::F64,

@@ -33,12 +33,12 @@ pub(super) fn legacy_body(bytes: &[u8]) -> Result<super::Reading, MeshFileFault>
     legacy_collected(bytes)?.mesh()
 }
 
-/// What an XML file says of the mesh of a body.
+/// Mesh of a body as stated in an XML file.
 pub(super) fn xml_collected(bytes: &[u8]) -> Result<Collected, MeshFileFault> {
     xml::grid(bytes)?.collected()
 }
 
-/// What a legacy file says of the mesh of a body.
+/// Mesh of a body as stated in a legacy file.
 pub(super) fn legacy_collected(bytes: &[u8]) -> Result<Collected, MeshFileFault> {
     legacy::grid(bytes)?.collected()
 }
@@ -49,7 +49,7 @@ struct Grid {
     points: Vec<Vec3>,
     /// Points of all cells, one cell after the other.
     nodes: Vec<i64>,
-    /// Where each cell ends in `nodes`.
+    /// End of each cell in `nodes`.
     ends: Vec<i64>,
     /// VTK's code of each cell.
     codes: Vec<i64>,

@@ -15,7 +15,7 @@ pub(super) enum Number {
     F64,
 }
 
-/// Which byte of a number comes first.
+/// Order of the bytes of a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Order {
     Little,
@@ -104,7 +104,7 @@ impl Number {
         }
     }
 
-    /// The numbers that words are, or the first word that is none.
+    /// The numbers in a text, or the first word that is not a number.
     pub(super) fn parsed<'a>(
         self,
         words: impl Iterator<Item = &'a str>,

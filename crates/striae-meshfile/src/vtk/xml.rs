@@ -27,7 +27,7 @@ pub(super) fn grid(bytes: &[u8]) -> Result<Grid, MeshFileFault> {
         let reason = reason
             .rsplit_once(" at ")
             .map_or(&reason[..], |(reason, _)| reason);
-        MeshFileFault::at(place, "XML", format!("text that is none: {reason}"))
+        MeshFileFault::at(place, "XML", format!("invalid text: {reason}"))
     })?;
     let root = document.root_element();
     let file = File::new(root, appended)?;
@@ -41,7 +41,7 @@ pub(super) fn grid(bytes: &[u8]) -> Result<Grid, MeshFileFault> {
     file.piece(piece)
 }
 
-/// What all arrays have in common.
+/// Properties shared by all arrays.
 struct File<'a> {
     order: Order,
     /// Type of the numbers before the bytes of an array.
@@ -243,7 +243,7 @@ impl<'a> File<'a> {
         }
     }
 
-    /// Those letters of base64 that are the bytes of one array.
+    /// Base64 letters that encode the bytes of one array.
     fn prefix<'b>(&self, letters: &'b [u8]) -> Option<&'b [u8]> {
         let encoded = |bytes: usize| bytes.div_ceil(3).checked_mul(4);
         let size = self.header.size();

@@ -10,7 +10,7 @@ use crate::{
     path::Path,
 };
 
-/// What names may stand for.
+/// Parts that names may refer to.
 pub(super) struct Names<'a> {
     bodies: &'a [Body],
     rigid: Vec<&'a str>,

@@ -1,7 +1,7 @@
 //! Models by names, as a deck writes them, in Rust.
 //!
-//! Bodies, sets, rigid surfaces and pairs are called by name; [`ModelBuilder::build`]
-//! looks them up, validates the model and closes the gaps that its pairs ask for.
+//! Bodies, sets, rigid surfaces and pairs are referred to by name; [`ModelBuilder::build`] looks
+//! them up, validates the model and closes gaps as its pairs request.
 
 mod extend;
 mod lookup;
@@ -181,7 +181,7 @@ impl ModelBuilder {
         fitted(model.checked()?).map_err(Faults)
     }
 
-    /// What is known where some names are not.
+    /// Draft of the model if some names are unknown.
     fn draft<'a>(
         &'a self,
         rigid: &'a [Option<RigidSurface>],

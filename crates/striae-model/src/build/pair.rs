@@ -72,7 +72,7 @@ impl SideBuilder {
     }
 }
 
-/// The sides `a` and `b` of a pair or a tie at a path; faults of both are told.
+/// The sides `a` and `b` of a pair or a tie at a path; faults of both are reported.
 pub(super) fn sides(
     [a, b]: &[SideBuilder; 2],
     path: &Path,
@@ -120,19 +120,19 @@ impl PairBuilder {
         self
     }
 
-    /// How contact is enforced.
+    /// Sets the enforcement of contact.
     pub fn enforcement(mut self, enforcement: Enforcement) -> Self {
         self.enforcement = enforcement;
         self
     }
 
-    /// Distance over which contact is looked for ahead.
+    /// Sets the distance within which contact is searched.
     pub fn search_distance(mut self, distance: f64) -> Self {
         self.search_distance = Some(distance);
         self
     }
 
-    /// What is made of gaps and overlaps of the meshes.
+    /// Sets the treatment of initial gaps and overlaps of the meshes.
     pub fn initial(mut self, initial: Initial) -> Self {
         self.initial = initial;
         self

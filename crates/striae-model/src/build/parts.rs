@@ -21,7 +21,7 @@ pub struct BodyBuilder {
     sections: Vec<SectionBuilder>,
 }
 
-/// Whether a body has a material besides those of its sections.
+/// Material of a body besides those of its sections.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Own {
     Given,
@@ -83,7 +83,7 @@ impl SectionBuilder {
         self
     }
 
-    /// How its elements take up strain.
+    /// Sets the formulation of its elements.
     pub fn formulation(mut self, formulation: Formulation) -> Self {
         self.section.formulation = formulation;
         self
@@ -97,13 +97,13 @@ impl BodyBuilder {
         self
     }
 
-    /// How its elements take up strain.
+    /// Sets the formulation of its elements.
     pub fn formulation(mut self, formulation: Formulation) -> Self {
         self.body.formulation = formulation;
         self
     }
 
-    /// What becomes of the mass of contact nodes.
+    /// Sets the treatment of the mass of contact nodes.
     pub fn contact_mass(mut self, contact_mass: ContactMass) -> Self {
         self.body.contact_mass = contact_mass;
         self

@@ -1,4 +1,4 @@
-//! Steps and what they state.
+//! Steps and their conditions.
 //!
 //! Longer than other files, as it is the one list of all that a step can state.
 
@@ -27,7 +27,7 @@ pub fn equal_increments(number: usize) -> Increments {
     }
 }
 
-/// Targets of the components of a displacement; `None` leaves a component as it is.
+/// Targets of the components of a displacement; `None` leaves a component unchanged.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Components(pub [Option<f64>; 3]);
 
@@ -71,10 +71,10 @@ pub struct StepBuilder {
     last: Last,
 }
 
-/// Which components a release sets free.
+/// Components that a release sets free.
 #[derive(Clone, Copy, Debug)]
 enum Released {
-    /// These.
+    /// The components given here.
     Chosen([bool; 3]),
     /// All that are prescribed.
     Prescribed,
@@ -86,7 +86,7 @@ enum Owner {
     Rigid(String),
 }
 
-/// What was stated last.
+/// Condition stated last.
 #[derive(Clone, Copy, Debug)]
 enum Last {
     Nothing,
@@ -268,7 +268,8 @@ impl StepBuilder {
         self.drive_rigid(name, coordinates, None, None)
     }
 
-    /// The same with a force at the reference point and a torque.
+    /// Drives a rigid body, with a force at the reference point and a torque on its free
+    /// coordinates.
     pub fn drive_rigid(
         mut self,
         name: impl Into<String>,
@@ -444,7 +445,7 @@ impl StepBuilder {
     }
 }
 
-/// What is prescribed after the steps so far: components of nodes of bodies.
+/// Components of nodes of bodies that are prescribed after the steps so far.
 #[derive(Default)]
 pub(super) struct Prescribed(BTreeSet<(BodyId, NodeId, usize)>);
 
@@ -480,14 +481,14 @@ impl Prescribed {
 pub(super) struct Resolved {
     pub(super) step: Step,
     pub(super) known: Known,
-    /// How many displacement conditions are stated.
+    /// Number of displacement conditions stated.
     stated: usize,
     /// Positions in the builder of what is known, by list.
     positions: BTreeMap<&'static str, Vec<usize>>,
 }
 
 impl Resolved {
-    /// Whether all displacement conditions are known.
+    /// Returns whether all displacement conditions are known.
     pub(super) fn displacements(&self) -> Known {
         let positions = self.positions.get("displacements");
         let gaps = positions.is_some_and(|known| known.len() < self.stated);

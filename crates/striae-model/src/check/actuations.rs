@@ -63,7 +63,7 @@ fn name(draft: &Draft<'_>, stated: &Actuation) -> String {
     )
 }
 
-/// Why an actuation makes no sense on its own.
+/// Reason why an actuation is meaningless on its own.
 fn unsound<'a>(
     draft: &Draft<'_>,
     stated: &Actuation,
@@ -75,7 +75,7 @@ fn unsound<'a>(
     if earlier.any(|other| {
         other.body == stated.body && overlaps(other) && other.kind.is_like(&stated.kind)
     }) {
-        return Some("this kind of actuation is stated twice; leave one of them out".to_owned());
+        return Some("this kind of actuation is stated twice; remove one of them".to_owned());
     }
     let factor = range(&stated.curve)
         .iter()
@@ -113,7 +113,7 @@ fn is_unit(vector: &Vec3) -> bool {
     (vector.norm() - 1.0).abs() < 1e-6
 }
 
-/// Why fibres that are not there cannot be actuated.
+/// Reason why missing fibres cannot be actuated.
 fn without_fibres(draft: &Draft<'_>, stated: &Actuation, kind: &ActuationKind) -> Option<String> {
     let of_fibres = [
         ActuationKind::FibreStrain(0.0),
@@ -177,7 +177,7 @@ fn follow(draft: &Draft<'_>, stated: &Actuation, reached: &mut Reached) -> Optio
     }
     let worst = worst.filter(|sum| sum.is_nan() || *sum <= -1.0)?;
     Some(format!(
-        "its lengths at rest would change by the factor {:.4}, and nothing would be left of them; strains, all kinds together and with the values of their curves, must stay above -1",
+        "its lengths at rest would change by the factor {:.4} and vanish; strains, all kinds together and with the values of their curves, must stay above -1",
         1.0 + worst
     ))
 }

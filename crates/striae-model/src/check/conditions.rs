@@ -14,7 +14,7 @@ const COMPONENTS: [char; 3] = ['x', 'y', 'z'];
 /// One component of one node of a body.
 type Freedom = (BodyId, NodeId, usize);
 
-/// Which components are prescribed after the steps so far.
+/// Components that are prescribed after the steps so far.
 pub(super) struct History {
     prescribed: BTreeSet<Freedom>,
     known: Known,
@@ -30,7 +30,7 @@ impl History {
     }
 }
 
-/// What a step has stated for a component so far.
+/// Value that a step has stated for a component so far.
 struct Statement<'s> {
     set: &'s str,
     target: f64,

@@ -11,7 +11,7 @@ use striae_solve::model::RigidShape;
 use super::{Draft, List};
 use crate::{fault::FaultKind, path::Path};
 
-/// Area over the square of the longest diagonal that is none.
+/// Ratio of the area to the square of the longest diagonal below which it counts as zero.
 const FLAT: f64 = 1e-12;
 
 /// Notes the first such facets of every rigid surface.

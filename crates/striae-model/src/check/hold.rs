@@ -1,6 +1,5 @@
-//! Whether every body is held: a body that is in no contact pair and not tied must have all
-//! six rigid motions stopped by displacement conditions, in every step without inertia,
-//! see [`RigidMotions`].
+//! Restraint of bodies: displacement conditions must stop all six rigid motions of a body that is
+//! in no contact pair and not tied, in every step without inertia, see [`RigidMotions`].
 
 use std::collections::BTreeSet;
 

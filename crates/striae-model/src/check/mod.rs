@@ -36,10 +36,10 @@ use crate::{
     path::Path,
 };
 
-/// Whether everything is known.
+/// Completeness of a part of a draft.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Known {
-    /// It is.
+    /// Everything is known.
     Whole,
     /// Something is missing, so that what seems to be absent may be there.
     InPart,
@@ -54,7 +54,7 @@ pub struct Named<'a, T> {
     pub part: Option<&'a T>,
 }
 
-/// What is known of a body.
+/// Known parts of a body.
 #[derive(Clone, Copy, Debug)]
 pub struct DraftBody<'a> {
     /// Its name.
@@ -76,7 +76,7 @@ pub struct DraftPair<'a> {
     pub name: &'a str,
     /// The pair; `None` where its sides have faults already.
     pub pair: Option<&'a Pair>,
-    /// Whether it is whole.
+    /// Completeness of the body.
     pub known: Known,
 }
 
@@ -85,9 +85,9 @@ pub struct DraftPair<'a> {
 pub struct DraftStep<'a> {
     /// The step.
     pub step: &'a Step,
-    /// Whether it is whole.
+    /// Completeness of the part.
     pub known: Known,
-    /// Whether all its displacement conditions are known.
+    /// Completeness of its displacement conditions.
     pub displacements: Known,
 }
 
@@ -104,7 +104,7 @@ pub struct Draft<'a> {
     pub ties: Vec<Named<'a, Tie>>,
     /// Steps.
     pub steps: Vec<DraftStep<'a>>,
-    /// Whether anything else is missing.
+    /// Completeness of everything else.
     pub known: Known,
 }
 

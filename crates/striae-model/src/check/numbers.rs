@@ -130,7 +130,7 @@ fn rigid_surfaces(model: &Model, faults: &mut List) {
     }
 }
 
-/// Whether a body can have such a mass and such moments.
+/// Returns whether a body can have such a mass and such moments.
 fn is_possible(inertia: &RigidInertia) -> bool {
     let RigidInertia { mass, moments, .. } = inertia;
     let largest = moments.iter().copied().fold(0.0, f64::max);
@@ -238,7 +238,7 @@ fn curve(curve: &Curve, path: Path, faults: &mut List) {
     }
 }
 
-/// Why points make no curve.
+/// Reason why points do not make a curve.
 pub fn misshapen(points: &[(f64, f64)]) -> Option<String> {
     match points[..] {
         [] | [_] => Some(format!("but there are only {}", points.len())),

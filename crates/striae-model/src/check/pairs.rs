@@ -61,7 +61,7 @@ pub(super) fn check(draft: &Draft<'_>, faults: &mut List) -> Positions {
     impossible
 }
 
-/// Notes pairs that ask for stabilisation where no step has any.
+/// Notes pairs that request stabilisation although no step has any.
 pub(super) fn check_stabilised(
     draft: &Draft<'_>,
     impossible: &Positions,
@@ -104,7 +104,7 @@ pub(super) fn textures(pair: &Pair, friction: &Friction) -> Option<FaultKind> {
     })
 }
 
-/// Why two surfaces make no pair, with the side that is to blame where it is one.
+/// Reason why two surfaces do not make a pair, with the side responsible if there is one.
 fn impossible_sides(draft: &Draft<'_>, pair: &Pair) -> Vec<(Option<&'static str>, FaultKind)> {
     let without_surface = |(side, name): (&ContactSurface, &'static str)| {
         let ContactSurface::Rigid(rigid) = side else {
@@ -123,7 +123,7 @@ fn impossible_sides(draft: &Draft<'_>, pair: &Pair) -> Vec<(Option<&'static str>
     wrong
 }
 
-/// Why two surfaces cannot touch each other.
+/// Reason why two surfaces cannot touch each other.
 fn wrong_together(draft: &Draft<'_>, pair: &Pair) -> Option<FaultKind> {
     let name = || pair.name.clone();
     let not_itself = |found| FaultKind::NotItself {
@@ -168,7 +168,7 @@ fn unsuited(pair: &Pair) -> Option<(&'static str, FaultKind)> {
             Some(("interference", on_itself("has no `interference`")))
         }
         true if pair.stabilised => {
-            let why = "holds the body nowhere, so that `stabilise` has no sense";
+            let why = "does not restrain the body, so `stabilise` has no effect";
             Some(("stabilised", on_itself(why)))
         }
         _ if collocated && pair.feature_angle.is_some() => {

@@ -9,7 +9,7 @@ use striae_solve::model::{BodyId, ContactSurface, Pair};
 use super::{Draft, List, Positions, hold};
 use crate::{fault::FaultKind, path::Path};
 
-/// Component of a normal that is none.
+/// Component of a normal that counts as zero.
 const ACROSS: f64 = 0.1;
 
 /// Notes such pairs of deformable bodies in the first step in which they are.

@@ -21,7 +21,7 @@ use striae_solve::model::{
 use super::{Draft, List, hold};
 use crate::{fault::FaultKind, path::Path};
 
-/// Component of a push that is none.
+/// Component of a push that counts as zero.
 const ACROSS: f64 = 0.17;
 /// Friction over pressure at most, in multiples of the largest coefficient at rest.
 const LARGEST: f64 = 3.0;

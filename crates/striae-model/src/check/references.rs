@@ -134,7 +134,7 @@ impl Check<'_> {
         }
     }
 
-    /// Notes the first index that is none of so many.
+    /// Notes the first index that is out of range.
     fn within(
         &mut self,
         what: &'static str,

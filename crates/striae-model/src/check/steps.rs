@@ -1,4 +1,4 @@
-//! What each step states: increments, loads, velocities, motions and friction.
+//! Checks of what each step states: increments, loads, velocities, motions and friction.
 
 use std::mem::discriminant;
 

@@ -90,7 +90,7 @@ fn joins(tie: &Tie, other: [Surface<'_>; 2]) -> bool {
     sides.is_some_and(|(a, b)| share([a, b], other))
 }
 
-/// Whether two joints have facets in common on both sides.
+/// Returns whether two joints have facets in common on both sides.
 fn share([a, b]: [Surface<'_>; 2], [c, d]: [Surface<'_>; 2]) -> bool {
     let common = |one: Surface<'_>, other: Surface<'_>| {
         let of_one: BTreeSet<&Face> = one.1.iter().collect();

@@ -1,4 +1,4 @@
-//! What facets with three corners cannot have.
+//! Restrictions on facets with three corners.
 //!
 //! Collocated contact is integrated over parts of quadrilaterals only.
 

@@ -6,7 +6,7 @@ use striae_mesh::Face;
 
 use super::label::{Owner, Part};
 
-/// Facets of a body that no statement tells apart, or a rigid surface.
+/// Facets of a body that no statement distinguishes, or a rigid surface.
 #[derive(Clone, Debug)]
 pub(super) struct Atom {
     /// Their owner.

@@ -25,11 +25,11 @@ use crate::{
 pub struct Lowered {
     /// The pairs.
     pub pairs: Vec<Pair>,
-    /// Where the friction of each is stated.
+    /// Origin of the friction of each.
     pub origins: Vec<Origin>,
 }
 
-/// Where the friction of a pair is stated.
+/// Origin of the friction of a pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Origin {
     /// For all.

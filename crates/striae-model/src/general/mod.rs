@@ -106,7 +106,7 @@ impl Everything {
         self
     }
 
-    /// Distance over which contact is looked for ahead.
+    /// Sets the distance within which contact is searched.
     pub fn search_distance(mut self, distance: f64) -> Self {
         self.search_distance = Some(distance);
         self

@@ -1,4 +1,4 @@
-//! Which of several statements decides about two surfaces.
+//! Precedence among statements about two surfaces.
 
 use std::collections::BTreeSet;
 
@@ -11,7 +11,7 @@ pub(super) type Couple = (usize, usize);
 /// A statement about what meets.
 #[derive(Clone, Debug)]
 pub(super) struct Rule {
-    /// Which one it is.
+    /// Statement that it is.
     pub(super) stated: Stated,
     /// First surface.
     pub(super) a: Part,
@@ -37,13 +37,13 @@ impl Stated {
         }
     }
 
-    /// Where it is in a model.
+    /// Path in a model.
     pub(super) fn path(self) -> Path {
         let (list, at) = self.place();
         Path::of("contact").field(list).index(at)
     }
 
-    /// How it is called in messages.
+    /// Name in messages.
     pub(super) fn told(self) -> String {
         let (list, at) = self.place();
         format!("`{list}` {}", at + 1)

@@ -63,7 +63,7 @@ impl Taken {
         self.couples.push([a, b]);
     }
 
-    /// Parts that tell facets apart.
+    /// Parts that distinguish facets.
     pub(super) fn parts(&self) -> impl Iterator<Item = &Part> {
         self.couples.iter().flatten()
     }

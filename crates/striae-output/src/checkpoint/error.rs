@@ -1,25 +1,25 @@
-//! Why a run cannot be taken up again.
+//! Reasons why a run cannot be resumed.
 
 use std::{io, path::PathBuf};
 
 use super::{FILE, FORMAT};
 use crate::OutputError;
 
-/// Why a run cannot be taken up again.
+/// Reason why a run cannot be resumed.
 #[derive(Debug, thiserror::Error)]
 pub enum CheckpointError {
     /// There is no checkpoint.
     #[error(
-        "{} has no {FILE}: a run leaves one every few increments and when it is interrupted, and takes it away when it completes",
+        "{} has no {FILE}: a run writes one every few increments and when it is interrupted, and removes it when it completes",
         folder.display()
     )]
     Missing {
-        /// Where it was looked for.
+        /// Folder that was searched.
         folder: PathBuf,
     },
     /// The run was completed.
     #[error(
-        "{0} holds a completed run, which has nothing left to do; it goes on with other steps by `striae resume {0} --with NEW.toml`",
+        "{0} holds a completed run; to continue it with other steps, use `striae resume {0} --with NEW.toml`",
         folder.display()
     )]
     Completed {
@@ -31,18 +31,18 @@ pub enum CheckpointError {
     Unreadable {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// Error of the operating system.
         #[source]
         cause: io::Error,
     },
-    /// It is another kind of file.
-    #[error("{} is no checkpoint", path.display())]
+    /// The file is of another kind.
+    #[error("{} is not a checkpoint", path.display())]
     Foreign {
         /// The file.
         path: PathBuf,
     },
-    /// It has a format of another time.
-    #[error("{} is a checkpoint of format {found}, not {FORMAT}; run the deck anew", path.display())]
+    /// The format is that of another version.
+    #[error("{} is a checkpoint of format {found}, not {FORMAT}; run the deck again", path.display())]
     Format {
         /// The file.
         path: PathBuf,
@@ -51,7 +51,7 @@ pub enum CheckpointError {
     },
     /// Another version of the program might give other digits.
     #[error(
-        "{} was written by striae {found}, and this is {}; run the deck anew",
+        "{} was written by striae {found}, and this is {}; run the deck again",
         path.display(),
         env!("CARGO_PKG_VERSION")
     )]
@@ -62,14 +62,14 @@ pub enum CheckpointError {
         found: String,
     },
     /// Its bytes are not those that were written.
-    #[error("{} is damaged; run the deck anew", path.display())]
+    #[error("{} is damaged; run the deck again", path.display())]
     Damaged {
         /// The file.
         path: PathBuf,
     },
     /// The deck means something else than when the run began.
     #[error(
-        "{} or a file it reads has changed since the run began; restore it, or run it anew",
+        "{} or a file it reads has changed since the run began; restore it, or run the deck again",
         deck.display()
     )]
     Changed {
@@ -81,21 +81,21 @@ pub enum CheckpointError {
         "{part} is not the same in the run and in the new deck; only steps, solver and output may differ"
     )]
     Differs {
-        /// What it is called.
+        /// Name of the part.
         part: String,
     },
     /// The new deck does not begin with the steps that are done.
     #[error(
-        "{step} is done, and the new deck does not begin with it as it was; state it again, and further steps after it"
+        "{step} is completed, but the new deck does not begin with it unchanged; keep it, and add further steps after it"
     )]
     StepDiffers {
-        /// What it is called.
+        /// Name of the step.
         step: String,
     },
     /// The new deck has no step that is not done.
-    #[error("the new deck has no step after those that are done")]
+    #[error("the new deck has no step after the completed ones")]
     NothingLeft,
     /// The files beside it are not those it was written with.
-    #[error("the output beside the checkpoint does not fit it: {0}")]
+    #[error("the output does not match the checkpoint: {0}")]
     Output(#[from] OutputError),
 }

@@ -53,10 +53,10 @@ impl Index {
         }
     }
 
-    /// That of the checkpoint of a folder, or of the end of a completed run.
+    /// Index of the checkpoint of a folder, or of the end of a completed run.
     ///
     /// # Errors
-    /// When there is none, or none that can be used.
+    /// If there is none, or none that can be used.
     pub fn read_last(folder: &Path) -> Result<Self, CheckpointError> {
         let end = folder.join(END);
         match (Self::read(folder), fs::read(&end)) {
@@ -79,12 +79,12 @@ impl Index {
         &self.checkpoint.source
     }
 
-    /// What was on disk.
+    /// Files that were on disk.
     pub fn written(&self) -> &Written {
         &self.checkpoint.written
     }
 
-    /// The step that was under way, and the fraction of it that was done.
+    /// The step in progress, and the completed fraction of it.
     pub fn reached(&self) -> (usize, f64) {
         let point = &self.checkpoint.point;
         (point.step, point.fraction)
@@ -106,10 +106,11 @@ impl Index {
         self.joined(|_| true, |_, _| true)
     }
 
-    /// What a rank holds of it, in local numbers, however many ranks wrote it; collective.
+    /// Part of the checkpoint that a rank holds, in local numbers, for any number of ranks that
+    /// wrote it; collective.
     ///
     /// # Errors
-    /// When a piece is missing or damaged, or is of another problem.
+    /// If a piece is missing or damaged, or belongs to another problem.
     pub fn held(self, problem: &Problem) -> Result<Checkpoint, CheckpointError> {
         let share = &problem.share;
         let Some(holding) = share.holding() else {
@@ -152,7 +153,7 @@ impl Index {
         )
     }
 
-    /// What the pieces have of some nodes and elements, one piece after the other.
+    /// Values that the pieces hold of some nodes and elements, one piece after the other.
     fn joined(
         self,
         node: impl Fn(u32) -> bool,

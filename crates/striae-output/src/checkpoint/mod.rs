@@ -1,4 +1,4 @@
-//! A run under way in a file, exactly, so that it can go on as if it had not stopped.
+//! A run in progress, stored exactly in a file, so that it can continue as if it had not stopped.
 //!
 //! ```text
 //! DIR/checkpoint.bin = "striae checkpoint\n", format, CRC-32 of the rest,
@@ -47,14 +47,14 @@ pub const END: &str = "end.bin";
 /// Number of the format, to be raised when the content changes.
 pub const FORMAT: u64 = 20;
 
-/// A run under way.
+/// A run in progress.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Checkpoint {
-    /// Which deck is run.
+    /// Deck that is run.
     pub source: Source,
-    /// What is on disk.
+    /// Record of the files on disk.
     pub written: Written,
-    /// Where the run is.
+    /// Point that the run has reached.
     pub point: Point,
 }
 
@@ -68,15 +68,15 @@ pub struct Source {
     pub path: PathBuf,
     /// Parameters of the deck that were set from outside, with their values.
     pub settings: Vec<(String, f64)>,
-    /// What the deck means, see [`fingerprint`].
+    /// Fingerprint of the meaning of the deck, see [`fingerprint`].
     pub fingerprint: u64,
-    /// What each body, rigid surface and pair means, by its name.
+    /// Fingerprint of each body, rigid surface and pair, by its name.
     pub parts: Vec<(String, u64)>,
-    /// What each step means.
+    /// Fingerprint of each step.
     pub steps: Vec<(String, u64)>,
 }
 
-/// What a recorder has written.
+/// Output that a recorder has written.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Written {
     /// Newton iterations of every increment.
@@ -85,7 +85,7 @@ pub struct Written {
     pub cut_backs: usize,
     /// Unknowns of the last system.
     pub unknowns: usize,
-    /// What the linear systems took.
+    /// Work spent on the linear systems.
     pub solver: crate::summary::SolverSummary,
     /// Increment of the last fields.
     pub fields: Option<usize>,
@@ -93,9 +93,9 @@ pub struct Written {
     pub seconds: f64,
     /// Files of the bodies, of the contact surfaces, of the rigid ones and of the ties.
     pub series: [Vec<Snapshot>; 4],
-    /// What has been judged so far.
+    /// Warnings gathered so far.
     pub judgement: striae_solve::warning::Judgement,
-    /// What slip has done so far.
+    /// Sums over slip so far.
     pub worn: Worn,
     /// Time of the last increment.
     pub elapsed: f64,
@@ -209,20 +209,20 @@ impl Checkpoint {
         index::remove(folder)
     }
 
-    /// The same for ranks that share a problem; collective.
+    /// Removes the checkpoint of ranks that share a problem; collective.
     ///
     /// # Errors
-    /// When the file is there and cannot be removed.
+    /// If the file exists and cannot be removed.
     pub fn remove_shared(folder: &Path, share: &Share) -> Result<(), OutputError> {
         on_first(share, || index::remove(folder)).map(|_| ())
     }
 }
 
 impl Source {
-    /// Whether the run is of this model.
+    /// Checks that the run is of this model.
     ///
     /// # Errors
-    /// When it began with another one.
+    /// If it began with another one.
     pub fn check(&self, model: &Model, output: &Output) -> Result<(), CheckpointError> {
         if fingerprint(model, output) == self.fingerprint {
             Ok(())
@@ -235,10 +235,10 @@ impl Source {
 }
 
 impl Source {
-    /// Whether a model has the bodies, rigid surfaces, pairs and ties of the run.
+    /// Checks that a model has the bodies, rigid surfaces, pairs and ties of the run.
     ///
     /// # Errors
-    /// The first of them that it has not, or has besides.
+    /// Returns the first part that is missing or additional.
     pub fn check_parts(&self, model: &Model) -> Result<(), CheckpointError> {
         let found = part_fingerprints(model);
         let differs = |one: &[(String, u64)], other: &[(String, u64)]| {
@@ -253,10 +253,10 @@ impl Source {
         differs.map_or(Ok(()), |part| Err(CheckpointError::Differs { part }))
     }
 
-    /// Whether a model begins with the steps that the run has done, so many.
+    /// Checks that a model begins with the steps that the run has completed, `done` of them.
     ///
     /// # Errors
-    /// The first of them that differs.
+    /// Returns the first step that differs.
     pub fn check_steps(&self, model: &Model, done: usize) -> Result<(), CheckpointError> {
         let found = step_fingerprints(model);
         let mut steps = self.steps.iter().enumerate().take(done);

@@ -1,8 +1,9 @@
-//! What a checkpoint has of nodes and elements, by their numbers in the whole.
+//! Values of nodes and elements in a checkpoint, by their numbers in the whole.
 //!
-//! All else of a point of a run, such as pairs, rigid bodies and energies, is the same on all
-//! ranks. What the linear system has learnt bears on digits only and is of a rank, so that
-//! it is left out; what increments lead to is there, as it saves the next one iterations.
+//! Everything else at a point of a run, such as pairs, rigid bodies and energies, is equal on all
+//! ranks. The experience of the linear solver affects only digits and is particular to a rank, so
+//! it is left out; the extrapolation of increments is included, as it saves the next one
+//! iterations.
 
 use std::{iter::successors, mem::take};
 
@@ -20,7 +21,7 @@ use crate::ranks::told;
 /// Fields of a state with a vector a node.
 const VECTORS: usize = 10;
 
-/// What a rank writes.
+/// Piece that a rank writes.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Piece {
     pub entries: Entries,
@@ -39,7 +40,8 @@ pub(super) struct Entries {
 #[derive(Serialize, Deserialize)]
 struct Values {
     states: [[Vec3; VECTORS]; 2],
-    /// Where it was before the last increment and the one before, as far as they lead on.
+    /// Positions before the last increment and before the one preceding it, as far as they are
+    /// continued.
     course: Vec<Vec3>,
 }
 
@@ -55,7 +57,7 @@ impl Values {
 }
 
 impl Entries {
-    /// Those of a rank, out of its point.
+    /// Values of a rank, taken out of its point.
     pub fn taken(point: &mut Point, problem: &Problem) -> Self {
         let share = &problem.share;
         let states = [&point.start, &point.state];
@@ -83,7 +85,7 @@ impl Entries {
         entries
     }
 
-    /// Those of a point of the whole problem, of which this rank has a share; `None` where it is of
+    /// Values of a point of the whole problem, of which this rank has a share; `None` if it is of
     /// another problem. Collective.
     pub fn of_whole(point: &Point, problem: &Problem) -> Option<Self> {
         let states = [&point.start, &point.state];
@@ -165,7 +167,7 @@ impl Entries {
     }
 }
 
-/// How many variables each element of the whole remembers, by body; collective.
+/// Number of internal variables of each element of the whole, by body; collective.
 fn counts(problem: &Problem) -> Vec<Vec<usize>> {
     let bodies = problem.compositions.iter().zip(&problem.model.bodies);
     let own = bodies.enumerate().map(|(body, (composition, model))| {
@@ -210,7 +212,7 @@ fn strip(point: &mut Point) {
     }
 }
 
-/// What the last increment came from, and the one before.
+/// Starts of the last increment and of the one before.
 fn courses(memory: &Memory) -> impl Iterator<Item = &Course> {
     successors(memory.course.as_ref(), |course| course.before.as_deref())
 }
@@ -252,14 +254,14 @@ pub(super) fn piece_file(index: &str, set: u64, rank: usize) -> String {
     format!("{}-{set}.{rank}.bin", stem(index))
 }
 
-/// Whether a file is a piece of a checkpoint.
+/// Returns whether a file is a piece of a checkpoint.
 pub(crate) fn is_piece(name: &str) -> bool {
     [super::FILE, super::END]
         .iter()
         .any(|index| is_piece_of(index, name))
 }
 
-/// Whether a file is a piece beside an index.
+/// Returns whether a file is a piece beside an index.
 pub(super) fn is_piece_of(index: &str, name: &str) -> bool {
     set_of(index, name).is_some()
 }

@@ -1,4 +1,4 @@
-//! What `expected.toml` says, checked.
+//! Content of `expected.toml`, checked.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -8,7 +8,7 @@ use serde::Deserialize;
 use crate::OutputError;
 use striae_files::read_text;
 
-/// What a case must give.
+/// Results that a case must give.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expected {
     /// Quantities in the order of the file.
@@ -20,22 +20,22 @@ pub struct Expected {
 pub struct Quantity {
     /// Name, as in histories.
     pub name: String,
-    /// Where the quantity must lie.
+    /// Range in which the quantity must lie.
     pub target: Target,
-    /// Where the target comes from.
+    /// Source of the target.
     pub source: String,
     /// Unit, for the reader only.
     pub unit: String,
 }
 
-/// Where a quantity must lie.
+/// Range in which a quantity must lie.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Target {
     /// Near a value.
     Value {
         /// The value.
         value: f64,
-        /// How near.
+        /// Allowed distance.
         tolerance: Tolerance,
     },
     /// Between two values, both included.
@@ -47,7 +47,7 @@ pub enum Target {
     },
 }
 
-/// How near a quantity must be to its expected value.
+/// Allowed distance of a quantity from its expected value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Tolerance {
     /// Largest difference.
@@ -65,7 +65,7 @@ impl Expected {
         })
     }
 
-    /// The same from text; the error is a sentence.
+    /// Parses a text; the error is a sentence.
     pub fn parse(text: &str) -> Result<Self, String> {
         let raw: RawFile = toml::from_str(text).map_err(|cause| cause.to_string())?;
         let mut names = BTreeSet::new();
@@ -123,7 +123,7 @@ impl RawQuantity {
         };
         match (self.value, self.min, self.max, tolerance) {
             (Some(0.0), None, None, Some(Tolerance::Relative(_))) => {
-                Err("nothing is relative to zero: give `absolute`")
+                Err("a relative tolerance of zero is meaningless: give `absolute`")
             }
             (Some(value), None, None, Some(tolerance)) => Ok(Target::Value { value, tolerance }),
             (Some(_), None, None, None) => Err("a `value` needs `relative` or `absolute`"),

@@ -10,15 +10,15 @@ use striae_files::write_atomically;
 /// One quantity, computed against expected.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
-    /// What was expected.
+    /// Expected quantity.
     pub quantity: Quantity,
-    /// What was computed, if it was.
+    /// Computed value, if there is one.
     pub computed: Option<f64>,
-    /// Whether it is as expected.
+    /// Verdict on the quantity.
     pub verdict: Verdict,
 }
 
-/// Whether a quantity is as expected.
+/// Verdict on a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// Inside the tolerance.
@@ -150,7 +150,7 @@ impl Verdict {
 }
 
 impl Target {
-    /// Whether `found` is where it must be; never so for a NaN.
+    /// Returns whether `found` is within the bounds; `false` for a NaN.
     pub fn contains(&self, found: f64) -> bool {
         match *self {
             Self::Value { value, tolerance } => (found - value).abs() <= tolerance.width(value),

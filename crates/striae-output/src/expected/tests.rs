@@ -129,7 +129,7 @@ fn contradictory_entries_are_refused() {
 }
 
 proptest! {
-    /// What is inside the interval passes, what is clearly outside fails.
+    /// Values inside the interval pass, values clearly outside fail.
     #[test]
     fn interval_and_verdict_agree(value in -1e6..1e6, width in 1e-6..1.0, offset in -2.0..2.0_f64) {
         for tolerance in [Tolerance::Absolute(width), Tolerance::Relative(width)] {

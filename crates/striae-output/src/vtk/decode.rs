@@ -56,7 +56,7 @@ impl Decoded {
                 .map(|c| i32::from_le_bytes(c.try_into().unwrap()).into())
                 .collect(),
             "UInt8" => self.bytes.iter().map(|&b| b.into()).collect(),
-            other => panic!("no whole numbers: {other}"),
+            other => panic!("not whole numbers: {other}"),
         }
     }
 }

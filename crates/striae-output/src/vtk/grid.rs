@@ -13,7 +13,7 @@ use crate::OutputError;
 pub struct Grid<'a> {
     /// Position of every point.
     pub points: &'a [Vec3],
-    /// How points make cells.
+    /// Cells formed by the points.
     pub cells: Cells<'a>,
     /// Arrays with one value a point.
     pub point_arrays: Vec<Array>,
@@ -23,7 +23,7 @@ pub struct Grid<'a> {
     pub time: f64,
 }
 
-/// How points make cells; corners are numbered as in VTK.
+/// Cells formed by points; corners are numbered as in VTK.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cells<'a> {
     /// The elements of a mesh.
@@ -74,7 +74,7 @@ impl Array {
 }
 
 impl Values {
-    /// How many values there are.
+    /// Number of values.
     pub fn len(&self) -> usize {
         match self {
             Self::Scalars(values) => values.len(),
@@ -85,14 +85,14 @@ impl Values {
         }
     }
 
-    /// Whether there is no value.
+    /// Returns whether there are no values.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 }
 
 impl Cells<'_> {
-    /// How many cells there are.
+    /// Number of cells.
     pub fn len(&self) -> usize {
         match self {
             Self::Blocks(blocks) => blocks.iter().map(CellBlock::len).sum(),
@@ -102,7 +102,7 @@ impl Cells<'_> {
         }
     }
 
-    /// Whether there is no cell.
+    /// Returns whether there are no cells.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }

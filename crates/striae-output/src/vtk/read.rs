@@ -1,5 +1,4 @@
-//! Reads files that [`write`](super::write) made: arrays by name, each decompressed when
-//! it is asked for.
+//! Reads files that [`write`](super::write) made: arrays by name, each decompressed on request.
 //!
 //! Cells may be of any of VTK's types; see [`Stored::cells`]. Files of other programs are
 //! read as far as they are of the same form: one piece, raw appended arrays in blocks
@@ -17,14 +16,14 @@ use super::{
 use crate::OutputError;
 use striae_files::{FileError, read_text};
 
-/// What begins the appended section.
+/// Beginning of the appended section.
 const SECTION: &[u8] = b"<AppendedData encoding=\"raw\">";
 
 /// A grid in a file, or in the pieces that a `.pvtu` file names.
 pub struct Stored {
     /// The file, or the pieces.
     files: Vec<OneFile>,
-    /// How pieces fit together; `None` where there is one file.
+    /// Joint of the pieces; `None` if there is one file.
     joint: Option<Joint>,
     /// Time of the state.
     pub time: f64,
@@ -33,13 +32,13 @@ pub struct Stored {
 /// One file.
 struct OneFile {
     bytes: Vec<u8>,
-    /// Where the appended section begins, behind its underscore.
+    /// Start of the appended section, behind its underscore.
     section: usize,
     arrays: Vec<Described>,
     time: f64,
 }
 
-/// What the text of a file says of an array.
+/// Description of an array in the text of a file.
 struct Described {
     /// `Points`, `Cells`, `PointData` or `CellData`.
     group: String,
@@ -50,7 +49,7 @@ struct Described {
 }
 
 impl Stored {
-    /// Reads the text of a file, or of all pieces; arrays wait until they are asked for.
+    /// Reads the text of a file, or of all pieces; arrays are read on request.
     ///
     /// # Errors
     /// When a file cannot be read or is of another form.
@@ -114,7 +113,7 @@ impl Stored {
         })
     }
 
-    /// An array with a value a point; `None` where there is none of that name.
+    /// An array with a value a point; `None` if there is none of that name.
     ///
     /// # Errors
     /// When it is damaged.
@@ -126,7 +125,7 @@ impl Stored {
         values.map(Some).map_err(content(path))
     }
 
-    /// An array with a value a cell; `None` where there is none of that name.
+    /// An array with a value a cell; `None` if there is none of that name.
     ///
     /// # Errors
     /// When it is damaged.
@@ -205,7 +204,7 @@ impl OneFile {
             && cells.ends.len() == cells.shapes.len();
         match sound {
             true => Ok(cells),
-            false => Err("the cells do not fit each other".to_owned()),
+            false => Err("the cell arrays do not match".to_owned()),
         }
     }
 
@@ -241,7 +240,9 @@ pub fn read_series(path: &Path) -> Result<Vec<super::Snapshot>, OutputError> {
         let word = |name| attribute(tag, name).ok_or_else(|| format!("an entry without `{name}`"));
         let entry = || {
             let time = word("timestep")?;
-            let time: f64 = time.parse().map_err(|_| format!("`{time}` is no time"))?;
+            let time: f64 = time
+                .parse()
+                .map_err(|_| format!("`{time}` is not a time"))?;
             Ok((time, plain(word("name")?), plain(word("file")?)))
         };
         let (time, name, file) = entry().map_err(content(path))?;
@@ -273,13 +274,16 @@ fn described(text: &str) -> Result<(Vec<Described>, f64), String> {
             "Points" | "Cells" | "PointData" | "CellData" => group = name.to_owned(),
             "DataArray" if attribute(tag, "Name") == Some("TimeValue") => {
                 let value = tag.split('>').nth(1).unwrap_or_default().trim();
-                time = value.parse().map_err(|_| format!("`{value}` is no time"))?;
+                time = value
+                    .parse()
+                    .map_err(|_| format!("`{value}` is not a time"))?;
             }
             "DataArray" => {
                 let word = |name| attribute(tag, name).ok_or(format!("an array without `{name}`"));
                 let whole = |name| {
                     let word = word(name)?;
-                    word.parse().map_err(|_| format!("`{word}` is no `{name}`"))
+                    word.parse()
+                        .map_err(|_| format!("`{word}` is not a valid `{name}`"))
                 };
                 arrays.push(Described {
                     group: group.clone(),

@@ -34,7 +34,7 @@ impl Series {
         Self::resumed(path, Vec::new())
     }
 
-    /// A series that goes on from earlier snapshots, as after a restart.
+    /// A series that continues earlier snapshots, as after a restart.
     pub fn resumed(path: impl Into<PathBuf>, snapshots: Vec<Snapshot>) -> Self {
         Self {
             path: path.into(),

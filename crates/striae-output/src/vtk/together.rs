@@ -68,7 +68,7 @@ fn arrays(arrays: &[Array]) -> String {
     text
 }
 
-/// How the points and cells of pieces make one grid.
+/// Joint of the points and cells of pieces into one grid.
 pub(super) struct Joint {
     /// Piece and number in it of every point.
     points: Vec<(usize, usize)>,

@@ -1,4 +1,4 @@
-//! One cycle of algebraic multigrid in the place of the inverse of a matrix.
+//! One cycle of algebraic multigrid as a substitute for the inverse of a matrix.
 
 use super::{
     ffi,
@@ -30,7 +30,7 @@ pub(crate) struct Cycle {
     x: Vector,
     y: Vector,
     library: Arc<Library>,
-    /// What it was made of.
+    /// Matrix that the cycle was set up for.
     matrix: Matrix,
 }
 
@@ -78,7 +78,7 @@ impl Cycle {
         Ok((reason == 0).then_some(cycle))
     }
 
-    /// Whether options choose another preconditioner than the usual one.
+    /// Returns whether options select a preconditioner other than the default one.
     pub(crate) fn is_chosen(library: &Library) -> Result<bool, Error> {
         library.has_option(PREFIX, "pc_type")
     }

@@ -37,7 +37,7 @@ pub(crate) struct Factors {
     pub(crate) entries: usize,
 }
 
-/// How a factorisation ended.
+/// Ending of a factorisation.
 #[derive(Debug)]
 pub(crate) enum Made {
     /// With factors.

@@ -1,7 +1,7 @@
-//! What is called of PETSc, declared by hand: real scalars, 32-bit indices.
+//! Functions of PETSc that are called, declared by hand: real scalars, 32-bit indices.
 //!
-//! The numbers behind the constants are those of PETSc's headers since 3.18; the sizes of
-//! its types are checked when it starts.
+//! The numbers behind the constants are those of PETSc's headers since 3.18; the sizes of its types
+//! are checked at startup.
 
 use mpi::ffi::MPI_Comm;
 use std::ffi::{c_char, c_int, c_void};

@@ -25,7 +25,7 @@ const FAILED: ffi::Code = 76;
 /// A linear function from vectors to vectors, that may fail.
 pub(crate) type Linear<'a> = dyn FnMut(&[f64], &mut [f64]) -> Result<(), Error> + 'a;
 
-/// How iterations ended.
+/// Ending of the iterations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Ended {
     /// Their number.
@@ -41,7 +41,7 @@ pub(crate) struct Krylov {
     library: Arc<Library>,
 }
 
-/// What the functions that PETSc calls are given.
+/// Context passed to the functions that PETSc calls.
 struct Context<'a, 'b> {
     multiply: &'a mut Linear<'b>,
     precondition: &'a mut Linear<'b>,
@@ -115,7 +115,7 @@ impl Krylov {
     }
 }
 
-/// What is destroyed at the end of a solution.
+/// Objects destroyed at the end of a solution.
 struct Objects {
     ksp: ffi::Ksp,
     matrix: ffi::Mat,

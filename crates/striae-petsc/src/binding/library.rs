@@ -13,7 +13,7 @@ use std::{
 /// PETSc, initialised; finalised when dropped.
 #[derive(Debug)]
 pub(crate) struct Library {
-    /// What errors say, as they come up.
+    /// Message of the last error.
     message: Arc<Mutex<Option<String>>>,
 }
 
@@ -61,7 +61,7 @@ impl Library {
         Err(Error::Petsc { code, message })
     }
 
-    /// Whether an option has a value.
+    /// Returns whether an option has a value.
     pub(crate) fn has_option(&self, prefix: &str, name: &str) -> Result<bool, Error> {
         let mut is_set = ffi::FALSE;
         let (prefix, name) = (text(prefix), text(&format!("-{name}")));
@@ -86,7 +86,7 @@ impl Library {
         self.check(code)
     }
 
-    /// Whether numbers are as they are declared here.
+    /// Checks that sizes of number types agree with the declarations.
     fn check_kinds(&self) -> Result<(), Error> {
         let size = |name: &CStr| {
             let (mut kind, mut found, mut size) = (0, ffi::FALSE, 0);
@@ -120,7 +120,7 @@ impl Drop for Library {
 }
 
 /// Gives memory that PETSc has freed back to the system, so that others can have it. The GNU C
-/// library would keep it for what PETSc asks for next, vectors of megabytes included.
+/// library would keep it for later requests of PETSc, even vectors of megabytes.
 pub(super) fn give_back() {
     #[cfg(all(target_os = "linux", target_env = "gnu"))]
     // SAFETY: may be called at any time.
@@ -134,7 +134,7 @@ pub(super) fn world() -> MPI_Comm {
     SimpleCommunicator::world().as_raw()
 }
 
-/// This rank alone.
+/// Communicator of this rank alone.
 pub(super) fn alone() -> MPI_Comm {
     SimpleCommunicator::self_comm().as_raw()
 }
@@ -158,7 +158,7 @@ pub(super) fn index(number: usize) -> Result<c_int, Error> {
     })
 }
 
-/// What PETSc says about a code in general.
+/// PETSc's description of an error code.
 fn general(code: ffi::Code) -> String {
     let mut said = ptr::null();
     // SAFETY: the answer is null or a string that is never freed.

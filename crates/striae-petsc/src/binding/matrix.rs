@@ -37,7 +37,7 @@ pub(crate) struct Matrix {
 }
 
 impl Side {
-    /// The same as a number of unknowns.
+    /// Layout in unknowns instead of blocks.
     pub(crate) fn unknowns(self) -> Lay {
         Lay {
             first: self.blocks.first * self.size,
@@ -46,7 +46,7 @@ impl Side {
         }
     }
 
-    /// Whether a block is this rank's own.
+    /// Returns whether this rank owns a block.
     pub(crate) fn contains(self, block: u32) -> bool {
         let Lay { first, own, .. } = self.blocks;
         (first..first + own).contains(&(block as usize))

@@ -7,7 +7,7 @@ use super::{
 use crate::error::Error;
 use std::{ffi::c_int, marker::PhantomData, ptr, sync::Arc, thread};
 
-/// How vectors lie on the ranks.
+/// Layout of vectors on the ranks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Lay {
     /// First entry of this rank.
@@ -106,10 +106,10 @@ impl Drop for Vector {
     }
 }
 
-/// What becomes of values that meet at an entry.
+/// Combination of values at a shared entry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Sum {
-    /// They add up.
+    /// The values add up.
     Added,
     /// The largest stays.
     Largest,

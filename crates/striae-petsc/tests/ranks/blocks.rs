@@ -6,7 +6,7 @@ use striae_sparse::{PlacedBlock, SparseMatrix, Structure, Supervariable};
 #[path = "../../../striae-sparse/tests/elastic/mod.rs"]
 mod elastic;
 
-/// What the lower block's face does on the upper one's.
+/// Effect of the lower block's face on the upper one's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Contact {
     Stick,
@@ -16,7 +16,7 @@ pub enum Contact {
     Open,
 }
 
-/// How the upper block is held.
+/// Support of the upper block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Top {
     Held,
@@ -39,14 +39,14 @@ pub struct Blocks {
     pub slices: usize,
 }
 
-/// What a rank holds.
+/// Data held by one rank.
 pub struct Part {
     pub partition: Partition,
     pub numbering: Numbering,
     pub tangent: Tangent,
     /// Values of the whole right-hand side.
     pub rhs: Vec<f64>,
-    /// Whether each unknown is a position.
+    /// `true` for unknowns that are positions.
     pub is_position: Vec<bool>,
     /// Number of each unknown when one rank has all.
     pub serial: Vec<usize>,

@@ -1,4 +1,4 @@
-//! What has to hold on any number of ranks.
+//! Properties that must hold on any number of ranks.
 
 use crate::blocks::{Blocks, Contact, Part, Rank, Top};
 use striae_condensed::{Automatic, Choice as Serial, FallBack, Method, SharedSolver};

@@ -41,6 +41,7 @@ from ._friction import (
     Tabulated,
     TwoTextures,
 )
+from ._gradient import differentiate
 from ._material import (
     ArrudaBoyce,
     ElasticPlastic,
@@ -164,6 +165,7 @@ __all__ = [
     "block",
     "capped_block",
     "cylinder",
+    "differentiate",
     "fit_friction",
     "gravity",
     "half_cylinder",

@@ -23,7 +23,7 @@ class BodySet:
     """A set of nodes, of facets, or both, of a body, by its name: ``body["top"]``."""
 
     def __init__(self, body: Body, name: str, texture: Optional[Texture] = None) -> None:
-        """Sets are got from bodies, ``body["top"]``."""
+        """Use ``body["top"]`` to get a set."""
         self.body = body
         """The body."""
         self.name = name
@@ -46,11 +46,11 @@ class BodySet:
         z: Optional[Motion] = None,
         curve: Curve = "ramp",
     ) -> Condition:
-        """Takes the nodes to a displacement from their positions at rest.
+        """Moves the nodes to a displacement from their positions at rest.
 
         x, y, z: targets (length), or functions from the fraction of the step, 0 to 1, to the
-            displacement (length), which begin where the nodes are and are called at 1001
-            fractions when the condition is made; a component that is left out stays as it is.
+            displacement (length), which begin where the nodes are and are called at 1001 fractions
+            when the condition is made; components that are left out keep their state.
         curve: how the targets are approached; it has no effect on functions.
         """
         given = [(axis, value) for axis, value in enumerate((x, y, z)) if value is not None]
@@ -65,7 +65,7 @@ class BodySet:
                 targets[axis] = check.number(value, "xyz"[axis])
         along = check.curve(curve, "curve")
         if along != "ramp" and all(target is None for target in targets):
-            raise refuse("curve", "components that are functions have no curve besides")
+            raise refuse("curve", "components given as functions take no curve")
         body, name = self.body.name, self.name
 
         def apply(step: native.Step) -> None:
@@ -83,7 +83,7 @@ class BodySet:
     def release(self, *components: Literal["x", "y", "z"]) -> Condition:
         """Ends prescribed displacements of the nodes.
 
-        components: those that become free; all that are prescribed where none is given.
+        components: components that become free; all prescribed ones by default.
         """
         axes = ["x", "y", "z"]
         chosen = [axes.index(check.word(one, axes, "components")) for one in components]
@@ -96,7 +96,7 @@ class BodySet:
         """Presses on the facets, against their current normals.
 
         value: target, positive inwards (force per current area).
-        extent: ``whole``, or ``exposed``: only what no other contact surface covers.
+        extent: ``whole``, or ``exposed``: only the part that no other contact surface covers.
         curve: how the target is approached.
         """
         target, along = check.number(value, "value"), check.curve(curve, "curve")
@@ -118,8 +118,8 @@ class BodySet:
         """Pulls on the facets.
 
         value: target (force per reference area, per current area of a follower).
-        direction: ``dead``: it stays; ``follower``: it turns with the facet.
-        extent: ``whole``, or ``exposed``: only what no other contact surface covers.
+        direction: ``dead`` loads keep their direction, ``follower`` loads rotate with the facet.
+        extent: ``whole``, or ``exposed``: only the part that no other contact surface covers.
         curve: how the target is approached.
         """
         target, along = check.vector(value, "value"), check.curve(curve, "curve")
@@ -143,9 +143,9 @@ class Body:
     mesh: Mesh
     """Mesh of the body at rest."""
     material: Optional[Material]
-    """Bulk material where no section is; none is known here of a body from a deck."""
+    """Bulk material outside of sections; ``None`` for a body from a deck."""
     sections: tuple[Section, ...]
-    """Parts of other materials; none is known here of a body from a deck."""
+    """Parts of other materials; empty for a body from a deck."""
     density: Optional[float]
     """Mass per volume at rest."""
 
@@ -164,15 +164,15 @@ class Body:
 
         name: unique name.
         mesh: a :class:`Mesh`, a path, or a mesh of meshio or pyvista; see :meth:`Mesh.of`.
-        material: bulk material; it may be left out where every element is in a section.
+        material: bulk material; optional if every element is in a section.
         sections: parts of other materials.
         density: mass per volume at rest, for inertia and gravity.
         contact_mass: mass of the nodes of contact surfaces in dynamic steps: ``consistent``,
             or ``redistributed`` to the nodes behind, against oscillations of contact.
-        formulation: of its elements but for those of sections, ``standard``, ``mean-dilatation``, which does not lock
-            where volumes can hardly change, or ``assumed-strain``, with which hexahedra bend;
-            by default ``mean-dilatation`` where Poisson's ratio at rest is above 0.45, else
-            ``standard``.
+        formulation: of its elements outside of sections, ``standard``, ``mean-dilatation``, which
+            avoids volumetric locking, or ``assumed-strain``, which avoids shear locking of
+            hexahedra in bending; by default ``mean-dilatation`` if Poisson's ratio at rest is above
+            0.45, else ``standard``.
         """
         self.name = check.name(name, "name")
         self.mesh = Mesh.of(mesh)
@@ -206,8 +206,8 @@ class Body:
         return BodySet(self, name)
 
     def add_set(self, name: str, members: Members) -> BodySet:
-        """Adds a set of nodes, and of the facets of the boundary all of whose corners are
-        among them, and returns it.
+        """Adds a set of nodes, and of the boundary facets with all corners among them, and returns
+        it.
 
         name: of the set; one of the same name is replaced.
         members: numbers of the nodes, a boolean mask over all nodes, or a function that takes
@@ -224,9 +224,9 @@ class Body:
         """Adds a set of elements, for a section.
 
         name: of the set; one of the same name is replaced.
-        members: numbers of the elements in the order of :attr:`Mesh.cells`, a boolean mask over
-            all elements, or a function that takes their middles (length), of shape (m, 3), and
-            returns a mask.
+        members: numbers of the elements in the order of :attr:`Mesh.cells`, a boolean mask over all
+            elements, or a function that takes their centres (length), of shape (m, 3), and returns
+            a mask.
         """
         with_elements = self.mesh.with_sets(elements={name: members})
         if not len(with_elements.element_sets[name]):
@@ -259,7 +259,7 @@ class Body:
         section: Optional[str] = None,
         curve: Curve = "ramp",
     ) -> Condition:
-        """Lets lines of the body grow without stress, until a later step states it again.
+        """Lets lines of the body grow without stress, until a later step restates it.
 
         strain: target ``s`` above -1: lengths at rest grow by the factor ``1 + s`` (no unit).
         along: lines that grow: a direction at rest of any length, or ``fibres`` of the
@@ -286,13 +286,13 @@ class Body:
         section: Optional[str] = None,
         curve: Curve = "ramp",
     ) -> Condition:
-        """Gives the body a strain without stress, until a later step states it or
-        :meth:`stretch` again.
+        """Imposes a stress-free strain on the body, until a later step states it or :meth:`stretch`
+        again.
 
         components: target of ``xx``, ``yy``, ``zz``, ``xy``, ``yz``, ``zx``, with principal
             values above -1 (no unit).
-        axes: first axis of the components, and a vector that gives the second one with it; those
-            of the model by default.
+        axes: first axis of the components, and a vector that determines the second one; those of
+            the model by default.
         section: element set of the section; all of the body by default.
         curve: how the target is approached.
         """
@@ -308,7 +308,7 @@ class Body:
         section: Optional[str] = None,
         curve: Curve = "ramp",
     ) -> Condition:
-        """Changes the temperature of the body, which expands, until a later step states it again.
+        """Changes the temperature of the body, which expands, until a later step restates it.
 
         temperature: target of the change since the start (temperature).
         thermal_expansion: strain per change of temperature (one over temperature).
@@ -329,7 +329,7 @@ class Body:
         section: Optional[str] = None,
         curve: Curve = "ramp",
     ) -> Condition:
-        """Lets lines of the body pull, as muscles do, until a later step states it again.
+        """Lets lines of the body pull, as muscles do, until a later step restates it.
 
         tension: target of the force per area at rest (force per area).
         along: lines that pull: a direction at rest of any length, or ``fibres`` of the
@@ -347,7 +347,7 @@ class Body:
         return None if name is None else check.name(name, "section")
 
     def _line(self, along: Union[str, Vector]) -> Optional[list[float]]:
-        """A unit vector, or nothing for fibres."""
+        """A unit vector, or ``None`` for fibres."""
         if isinstance(along, str):
             check.word(along, ("fibres",), "along")
             return None

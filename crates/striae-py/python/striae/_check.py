@@ -1,4 +1,4 @@
-"""Arguments of Python as the numbers and arrays that the native part takes."""
+"""Conversion of Python arguments to the numbers and arrays that the native part takes."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ Members: TypeAlias = Union[npt.ArrayLike, Callable[[Floats], npt.ArrayLike]]
 
 CURVES = ("ramp", "constant", "smooth")
 
-#: Straight pieces of a curve that is given by a function.
+#: Straight pieces by which a curve given as a function is approximated.
 PIECES = 1000
 
 T = TypeVar("T")
@@ -81,7 +81,7 @@ def integers(value: Any, path: str) -> Ints:
 
 
 def vector(value: Any, path: str, count: int = 3) -> list[float]:
-    """So many finite numbers."""
+    """``count`` finite numbers."""
     found = array(value, path)
     if found.shape != (count,):
         raise refuse(path, f"{count} numbers are needed, but it has shape {found.shape}")
@@ -91,7 +91,7 @@ def vector(value: Any, path: str, count: int = 3) -> list[float]:
 
 
 def counts(value: Any, path: str, count: int = 3) -> list[int]:
-    """So many integers of at least 1."""
+    """``count`` integers of at least 1."""
     found = integers(value, path)
     if found.shape != (count,):
         raise refuse(path, f"{count} integers are needed, but it has shape {found.shape}")
@@ -180,7 +180,7 @@ def motion(
 
 
 def curve(value: Any, path: str) -> str | list[tuple[float, float]]:
-    """The name of a curve, or its points; those of a function are taken once, here."""
+    """The name of a curve, or its points; functions are sampled here, once."""
     if isinstance(value, str):
         return word(value, CURVES, path)
     if callable(value):

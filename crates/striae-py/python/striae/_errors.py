@@ -10,18 +10,18 @@ if TYPE_CHECKING:
 
 
 class Fault(NamedTuple):
-    """One fault of a model: the part that is wrong, and what is wrong with it."""
+    """One fault of a model: the part it concerns, and a message."""
 
     path: str
     """The part, such as ``steps[1].displacements[0]``, counted from 0."""
     message: str
-    """What was found and what is needed."""
+    """Message: what was found and what is needed."""
 
 
 class ModelError(ValueError):
     """A model, or a part of it, cannot be simulated.
 
-    It lists every fault there is, each with the path of the part that is wrong.
+    The exception lists all faults, each with the path of the part it concerns.
     """
 
     faults: list[Fault]
@@ -40,9 +40,9 @@ class ModelError(ValueError):
 
 
 class RunStopped(RuntimeError):
-    """A run ended before its last step was done; the message says why.
+    """A run ended before its last step was completed; the message says why.
 
-    What had converged is in :attr:`run`, and on disk if the run was recorded.
+    All converged increments are in :attr:`run`, and on disk if the run was recorded.
     """
 
     run: Run
@@ -57,7 +57,7 @@ class RunStopped(RuntimeError):
 class RunInterrupted(KeyboardInterrupt):
     """A run was interrupted from the keyboard.
 
-    It ends after the increment under way. What had converged is in :attr:`run`, and on
+    The run ends after the current increment. All converged increments are in :attr:`run`, and on
     disk if the run was recorded.
     """
 
@@ -74,10 +74,10 @@ class SweepError(RuntimeError):
     """A model of a sweep could not be made or run; the cause, ``__cause__``, says why."""
 
     parameters: dict[str, Any]
-    """The parameters with which it happened, by name, in their units."""
+    """Parameters of the failed combination, by name, in their units."""
 
     def __init__(self, parameters: dict[str, Any], cause: str) -> None:
-        """Makes the exception from parameters and a cause in words."""
+        """Makes the exception from parameters and the message of a cause."""
         told = ", ".join(f"{name} = {value!r}" for name, value in parameters.items())
         super().__init__(f"with {told or 'no parameters'}: {cause}")
         self.parameters = parameters

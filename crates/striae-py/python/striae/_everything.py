@@ -22,7 +22,7 @@ FEATURE_ANGLE = 45.0
 
 
 class Everything:
-    """What :meth:`Model.contact_all` states."""
+    """Contact of everything with everything, as :meth:`Model.contact_all` states it."""
 
     def __init__(
         self,
@@ -35,7 +35,7 @@ class Everything:
         initial: Union[Literal["as-meshed", "close", "resolve"], float],
         stabilise: bool,
     ) -> None:
-        """Takes what the method has been given."""
+        """Takes the arguments of the method."""
         if friction is not None:
             check.kind(friction, Friction, "friction")
         made = native.Everything(None if friction is None else friction._native)
@@ -81,7 +81,7 @@ class Everything:
 
 
 def label(surface: Surface, path: str) -> str:
-    """What decks call a surface."""
+    """Name of a surface in decks."""
     if isinstance(surface, str):
         return check.name(surface, path)
     if isinstance(surface, BodySet):

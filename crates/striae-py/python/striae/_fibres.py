@@ -20,7 +20,7 @@ class Fibres:
 
     _stiffness: Stiffness
     direction: Texture
-    """Where they point at rest."""
+    """Directions at rest."""
 
     def __init__(self) -> None:
         """Use one of the kinds of fibres."""
@@ -37,8 +37,8 @@ class Fibres:
 
 
 class ExponentialFibres(Fibres):
-    """Fibres that stiffen as they are stretched and bear no compression, by Holzapfel, Gasser
-    and Ogden: the energy ``k1/(2 k2) (exp(k2 E^2) - 1)`` of their strain ``E``."""
+    """Fibres that stiffen in tension and bear no compression, after Holzapfel, Gasser and Ogden:
+    the energy ``k1/(2 k2) (exp(k2 E^2) - 1)`` of their strain ``E``."""
 
     def __init__(
         self,
@@ -51,13 +51,13 @@ class ExponentialFibres(Fibres):
         """Makes the family.
 
         k1: modulus, positive (force per area).
-        k2: how fast they stiffen, at least 0 (no unit).
+        k2: exponent of stiffening, at least 0 (no unit).
         direction: at rest, one vector of any length, or :class:`Uniform`, :class:`Radial`, or
-            :class:`Circumferential` or :class:`Axial`, which may be turned about the radius.
+            :class:`Circumferential` or :class:`Axial`, which may be rotated about the radius.
         dispersion: from 0, all along the direction, to 1/3, in all directions (no unit).
         """
         self.k1, self.k2 = check.positive(k1, "k1"), check.number(k2, "k2")
-        """Modulus (force per area), and how fast the fibres stiffen (no unit)."""
+        """Modulus (force per area), and exponent of stiffening (no unit)."""
         self.dispersion = check.number(dispersion, "dispersion")
         """From 0, all along the direction, to 1/3, in all directions (no unit)."""
         self._stiffness = (self.k1, self.k2, self.dispersion)
@@ -75,11 +75,12 @@ class LinearFibres(Fibres):
     def __init__(self, modulus: float, direction: Union[Texture, Vector]) -> None:
         """Makes the family.
 
-        modulus: what the family adds along its direction at rest, positive (force per area).
+        modulus: stiffness that the family adds along its direction at rest, positive (force per
+            area).
         direction: as of :class:`ExponentialFibres`.
         """
         self.modulus = check.positive(modulus, "modulus")
-        """What the family adds along its direction at rest (force per area)."""
+        """Stiffness that the family adds along its direction at rest (force per area)."""
         self._stiffness = self.modulus
         self._point(direction)
 
@@ -88,17 +89,17 @@ class LinearFibres(Fibres):
 
 
 class Fibrous(Material):
-    """Families of fibres in a neo-Hookean solid or in rubber that does not relax."""
+    """Families of fibres in a neo-Hookean solid or in rubber without relaxation."""
 
     def __init__(self, ground: Union[NeoHookean, Rubber], fibres: Sequence[Fibres]) -> None:
         """Makes the material.
 
-        ground: what is around the fibres.
-        fibres: families of fibres, at least one. Directions are taken in the middle of each
-            element; :meth:`Material.stress` takes those at the origin.
+        ground: material around the fibres.
+        fibres: families of fibres, at least one. Directions are evaluated at the centre of each
+            element, and at the origin in :meth:`Material.stress`.
         """
         self.ground = check.kind(ground, Material, "ground")
-        """What is around the fibres."""
+        """Material around the fibres."""
         self.fibres = tuple(check.kind(one, Fibres, "fibres") for one in fibres)
         """The families."""
         self._native = self.ground._native.with_fibres([one._part() for one in self.fibres])

@@ -1,4 +1,4 @@
-"""Friction laws from measured friction."""
+"""Friction laws fitted to measurements."""
 
 from __future__ import annotations
 
@@ -29,13 +29,13 @@ LAWS: dict[type[Friction], str] = {
 
 
 class Measurements(NamedTuple):
-    """Measured friction, as :func:`fit_friction` takes it."""
+    """Measured friction, the input of :func:`fit_friction`."""
 
     angles: Floats
     """Directions of slip, of shape (n,) (degrees)."""
     forces: Floats
-    """Tangential over normal force: the part against slip, of shape (n,), or where directions
-    of the force were measured components, of shape (n, 2) (no unit)."""
+    """Ratio of tangential to normal force: the part against slip, of shape (n,), or, if directions
+    of the force were measured, components, of shape (n, 2) (no unit)."""
     theta: Floats
     """Angles between the textures of two surfaces, of shape (n,) (degrees)."""
     spread: Floats
@@ -43,12 +43,13 @@ class Measurements(NamedTuple):
 
 
 def read_measurements(path: Union[str, os.PathLike[str]]) -> Measurements:
-    """Reads a file of measurements, as ``striae fit`` takes it.
+    """Reads a file of measurements, in the format of ``striae fit``.
 
-    One reading a line, numbers separated by commas, under a line with the names of columns:
-    ``angle`` (degrees), ``friction`` (no unit) or ``tangential`` and ``normal`` (force), and where
-    they are known ``direction`` and ``theta`` (degrees) and ``spread`` (no unit). What follows a
-    ``#`` is passed over. All faults are one :class:`ModelError` with lines and columns.
+    The file has one reading per line, with numbers separated by commas, below a line with the names
+    of columns: ``angle`` (degrees), ``friction`` (no unit) or ``tangential`` and ``normal``
+    (force), and optionally ``direction`` and ``theta`` (degrees) and ``spread`` (no unit). Text
+    after a ``#`` is ignored. All faults are raised as one :class:`ModelError` with lines and
+    columns.
 
     path: the file.
     """
@@ -79,7 +80,7 @@ class FrictionFit:
         level: float,
         measured: tuple[Floats, Floats, Floats, Optional[Floats]],
     ) -> None:
-        """Fits are made by :func:`fit_friction`."""
+        """Use :func:`fit_friction` to make a fit."""
         constants, self._deviation, self._freedom = found
         self._friction, self._at_bound, self._level = friction, at_bound, level
         self._constants = {name.removeprefix("mu_"): value for name, value, _ in constants}
@@ -93,16 +94,16 @@ class FrictionFit:
 
     @property
     def constants(self) -> dict[str, float]:
-        """Constants by the name they have as arguments of the law, such as ``forward``; of a
-        table ``mu at 30 degrees`` (no unit)."""
+        """Constants, by the names of the arguments of the law, such as ``forward``; for a table
+        ``mu at 30 degrees`` (no unit)."""
         return dict(self._constants)
 
     @property
     def intervals(self) -> dict[str, Optional[tuple[float, float]]]:
         """Intervals in which the constants lie with the probability :attr:`level` (no unit).
 
-        ``None`` where nothing is left to tell errors by, or where :attr:`at_bound`; infinite
-        ends where the measurements do not bound a constant.
+        ``None`` if no readings are left to estimate errors from, or if :attr:`at_bound`; ends are
+        infinite if the measurements do not bound a constant.
         """
         return dict(self._intervals)
 
@@ -118,17 +119,17 @@ class FrictionFit:
 
     @property
     def degrees_of_freedom(self) -> int:
-        """Measured numbers less constants."""
+        """Number of measured values minus that of constants (no unit)."""
         return self._freedom
 
     @property
     def at_bound(self) -> bool:
-        """Whether the law closest to the measurements would create energy; this one is the
-        closest one that does not."""
+        """``True`` if the law closest to the measurements would create energy; the law found is
+        then the closest one that does not."""
         return self._at_bound
 
     def plot(self, axes: Optional[Axes] = None) -> Axes:
-        """Draws friction against slip over the direction of slip, measured and by the law.
+        """Draws friction against slip over the direction of slip, measured and fitted.
 
         axes: where it is drawn; on a new figure by default.
         """
@@ -153,8 +154,8 @@ def fit_friction(
 ) -> FrictionFit:
     """Finds the constants of a friction law from measurements, by least squares.
 
-    The law that is found dissipates in all directions of slip. Readings are taken as
-    independent and normally distributed.
+    The law found dissipates in all directions of slip. Readings are assumed to be independent and
+    normally distributed.
 
     angles: direction in which the textured surface slips at each reading, from its texture
         ``a`` (across the grooves, against a nap), counter-clockwise as seen from outside it;
@@ -190,7 +191,7 @@ def fit_friction(
 
 
 def _column(value: Any, count: Optional[int], path: str) -> Floats:
-    """An array of so many numbers, which may be stated by one number."""
+    """An array of ``count`` numbers, or one number for all."""
     found = check.array(value, path)
     if found.ndim == 0 and count is not None:
         found = np.full(count, found)
@@ -221,7 +222,7 @@ def _recipe(
     constants: list[tuple[str, float, Optional[tuple[float, float]]]],
     rule: str,
 ) -> tuple[Any, tuple[Any, ...], dict[str, Any]]:
-    """How the law is made of its constants."""
+    """Constructor of the law, from its constants."""
     values = {name.removeprefix("mu_"): value for name, value, _ in constants}
     if law is Tabulated:
         # "mu at 30 degrees"

@@ -25,8 +25,8 @@ if TYPE_CHECKING:
 class SlipSurface(NamedTuple):
     """Friction of a slipping contact, sampled over all directions, per unit of pressure.
 
-    Directions count in the frame of the texture, from ``a`` (across the grooves, against a
-    nap) towards ``s``'s side, counter-clockwise; of two textures from their sum.
+    Directions are angles in the frame of the texture, from ``a`` (across the grooves, against a
+    nap) towards ``s``'s side, counter-clockwise; for two textures from their sum.
     """
 
     slip_angle: Floats
@@ -224,7 +224,7 @@ class Friction(Made):
         return bounds.reshape(pressures.shape)
 
     def _with(self, method: str, constants: Mapping[str, Optional[float]]) -> Friction:
-        """The law with one more dependence, by the name of its method."""
+        """The law with an additional dependence, by the name of its method."""
         numbers = {
             name: None if value is None and name in ("floor", "limit") else check.number(value, name)
             for name, value in constants.items()
@@ -283,7 +283,7 @@ class Friction(Made):
 
 
 class Frictionless(Friction):
-    """No friction."""
+    """Frictionless contact."""
 
     def __init__(self) -> None:
         """Makes the law."""
@@ -373,10 +373,10 @@ class Tabulated(Friction):
 
     @classmethod
     def sampled(cls, mu: Callable[[float], float], count: int = 360) -> Tabulated:
-        """Makes the law from a function, its polar curve, which is called for each angle once.
+        """Makes the law from a function, its polar curve, which is called once for each angle.
 
-        Between the angles the law is monotone and smooth; it differs from the function by the
-        square of their distance and less.
+        Between the angles the law is monotone and smooth; its error is at most of the order of the
+        square of their distance.
 
         mu: coefficient of friction (no unit) of slip at an angle (degrees).
         count: number of angles, from 0 at equal distances.
@@ -388,7 +388,7 @@ class Tabulated(Friction):
 
 
 class OwnFriction(Friction):
-    """A friction law that a function of Python states by its kernel.
+    """A user-defined friction law: a Python function states its kernel.
 
     At a contact point with the pressure ``p``, friction is ``-tau = mu p (L d + eta)`` in slip
     along ``K d`` with a unit vector ``d``; without slip it is anywhere inside that slip surface.
@@ -397,10 +397,10 @@ class OwnFriction(Friction):
     turn from it, of two textures their bisector and a quarter turn from it. There they depend
     on the angle between two textures, and of one texture on nothing.
 
-    The function is called when the law is made, not during a run: its answers become a Fourier
-    series over the angle, exact to round-off. The law is held against mechanics: friction
-    dissipates in all directions, is opposite on the two surfaces, inside its slip surface, and
-    derivatives are exact. Otherwise one :class:`ModelError` says what is wrong.
+    The function is called when the law is made, not during a run: its values become a Fourier
+    series over the angle, exact to round-off. The law is checked against mechanics: friction
+    dissipates in all directions, is opposite on the two surfaces and inside its slip surface, and
+    derivatives are exact. A law that fails raises a :class:`ModelError` with the reason.
     """
 
     def __init__(
@@ -457,9 +457,9 @@ def _series(kernel: Callable[[float], Sequence[npt.ArrayLike]], law: str) -> lis
             return terms
     raise refuse(
         law,
-        "the kernel is no smooth function of the angle between the textures: its Fourier series"
-        f" has not ended after {SAMPLES[-1] // 4} terms; mind that the bisector turns back where"
-        " textures become opposed, so what points along it must vanish there",
+        "the kernel is not a smooth function of the angle between the textures: its Fourier series"
+        f" has not ended after {SAMPLES[-1] // 4} terms; note that the bisector reverses where"
+        " textures become opposed, so components along it must vanish there",
     )
 
 

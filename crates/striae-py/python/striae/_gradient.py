@@ -32,8 +32,8 @@ def differentiate(
     the target of a curve, an angle of texture, a dimension of a mesh, as long as meshes keep
     their elements. Derivatives are those of the discrete equations, by one correction with the
     converged tangent in each increment, so they cost a fraction of a run each; their errors
-    are about 1e-8 of them. Where a contact node is just between stick and slip, or open and
-    closed, they are one-sided, of which a warning tells.
+    are about 1e-8 of them. A warning names contact nodes just between stick and slip, or open
+    and closed, at which derivatives are one-sided.
 
     model_of: a function that makes the model: ``model_of(mu=0.3)``.
     parameters: by name the values at which the run is made.

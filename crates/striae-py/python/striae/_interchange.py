@@ -1,4 +1,4 @@
-"""Meshes of meshio and pyvista as ours, and results as grids of pyvista."""
+"""Conversion of meshes of meshio and pyvista, and of results to grids of pyvista."""
 
 from __future__ import annotations
 

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, Optional, TypeAlias
 
-#: What makes an object, with which arguments.
+#: Callable that makes an object, with its arguments.
 Recipe: TypeAlias = tuple[Callable[..., Any], tuple[Any, ...], dict[str, Any]]
 
 
 class Made:
-    """It is copied and pickled by being made again."""
+    """Base of objects that are copied and pickled by their constructor arguments."""
 
-    #: Unknown where it was not made by its class.
+    #: ``None`` if the object was not made by its class.
     _recipe: Optional[Recipe]
 
     def __new__(cls, *arguments: Any, **named: Any) -> Any:

@@ -96,11 +96,11 @@ class LinearElastic(Material):
 
 
 class Rubber(Material):
-    """Rubber: an isochoric energy of its own, and an energy of the volume ratio.
+    """Rubber: an isochoric energy, which each law defines, and an energy of the volume ratio.
 
-    Branches of a spring and a dashpot let it relax: ``relaxation=[(ratio, time), ...]``. The law
-    is that of slow deformations; sudden ones meet ``1 + sum of ratios`` times its isochoric
-    stress, which falls to once, by each branch in its relaxation time.
+    Branches of a spring and a dashpot model relaxation: ``relaxation=[(ratio, time), ...]``. The
+    law describes slow deformations; the isochoric stress of sudden ones is ``1 + sum of ratios``
+    times as large and relaxes to that of the law, in each branch with its relaxation time.
     """
 
     relaxation: tuple[tuple[float, float], ...]
@@ -156,8 +156,8 @@ class IsochoricNeoHookean(Rubber):
         bulk_modulus: bulk modulus, positive (force per area); it or ``poissons_ratio`` is needed.
         poissons_ratio: Poisson's ratio at rest, above -1 and below 0.5 (no unit).
         volumetric: ``quadratic``, ``K/2 (J - 1)^2``, or ``logarithmic``, ``K/2 ln^2 J``.
-        relaxation: branches that relax, each a ratio of its modulus to that of the law,
-            positive (no unit), and a relaxation time, positive (time).
+        relaxation: branches, each a ratio of its modulus to that of the law, positive (no unit),
+            and a relaxation time, positive (time).
         """
         given = {"shear_modulus": shear_modulus}
         self._make(given, bulk_modulus, poissons_ratio, volumetric, relaxation)
@@ -183,8 +183,8 @@ class MooneyRivlin(Rubber):
         bulk_modulus: bulk modulus, positive (force per area); it or ``poissons_ratio`` is needed.
         poissons_ratio: Poisson's ratio at rest, above -1 and below 0.5 (no unit).
         volumetric: ``quadratic``, ``K/2 (J - 1)^2``, or ``logarithmic``, ``K/2 ln^2 J``.
-        relaxation: branches that relax, each a ratio of its modulus to that of the law,
-            positive (no unit), and a relaxation time, positive (time).
+        relaxation: branches, each a ratio of its modulus to that of the law, positive (no unit),
+            and a relaxation time, positive (time).
         """
         given = {"c10": c10, "c01": c01}
         self._make(given, bulk_modulus, poissons_ratio, volumetric, relaxation)
@@ -212,8 +212,8 @@ class Yeoh(Rubber):
         bulk_modulus: bulk modulus, positive (force per area); it or ``poissons_ratio`` is needed.
         poissons_ratio: Poisson's ratio at rest, above -1 and below 0.5 (no unit).
         volumetric: ``quadratic``, ``K/2 (J - 1)^2``, or ``logarithmic``, ``K/2 ln^2 J``.
-        relaxation: branches that relax, each a ratio of its modulus to that of the law,
-            positive (no unit), and a relaxation time, positive (time).
+        relaxation: branches, each a ratio of its modulus to that of the law, positive (no unit),
+            and a relaxation time, positive (time).
         """
         given = {"c10": c10, "c20": c20, "c30": c30}
         self._make(given, bulk_modulus, poissons_ratio, volumetric, relaxation)
@@ -239,8 +239,8 @@ class Gent(Rubber):
         bulk_modulus: bulk modulus, positive (force per area); it or ``poissons_ratio`` is needed.
         poissons_ratio: Poisson's ratio at rest, above -1 and below 0.5 (no unit).
         volumetric: ``quadratic``, ``K/2 (J - 1)^2``, or ``logarithmic``, ``K/2 ln^2 J``.
-        relaxation: branches that relax, each a ratio of its modulus to that of the law,
-            positive (no unit), and a relaxation time, positive (time).
+        relaxation: branches, each a ratio of its modulus to that of the law, positive (no unit),
+            and a relaxation time, positive (time).
         """
         given = {"shear_modulus": shear_modulus, "limit": limit}
         self._make(given, bulk_modulus, poissons_ratio, volumetric, relaxation)
@@ -266,8 +266,8 @@ class ArrudaBoyce(Rubber):
         bulk_modulus: bulk modulus, positive (force per area); it or ``poissons_ratio`` is needed.
         poissons_ratio: Poisson's ratio at rest, above -1 and below 0.5 (no unit).
         volumetric: ``quadratic``, ``K/2 (J - 1)^2``, or ``logarithmic``, ``K/2 ln^2 J``.
-        relaxation: branches that relax, each a ratio of its modulus to that of the law,
-            positive (no unit), and a relaxation time, positive (time).
+        relaxation: branches, each a ratio of its modulus to that of the law, positive (no unit),
+            and a relaxation time, positive (time).
         """
         given = {"mu": mu, "locking_stretch": locking_stretch}
         self._make(given, bulk_modulus, poissons_ratio, volumetric, relaxation)
@@ -292,8 +292,8 @@ class Ogden(Rubber):
         bulk_modulus: bulk modulus, positive (force per area); it or ``poissons_ratio`` is needed.
         poissons_ratio: Poisson's ratio at rest, above -1 and below 0.5 (no unit).
         volumetric: ``quadratic``, ``K/2 (J - 1)^2``, or ``logarithmic``, ``K/2 ln^2 J``.
-        relaxation: branches that relax, each a ratio of its modulus to that of the law,
-            positive (no unit), and a relaxation time, positive (time).
+        relaxation: branches, each a ratio of its modulus to that of the law, positive (no unit),
+            and a relaxation time, positive (time).
         """
         pairs = [check.vector(term, "terms", 2) for term in terms]
         names = [(f"mu {at}", f"alpha {at}") for at in range(len(pairs))]
@@ -302,7 +302,7 @@ class Ogden(Rubber):
 
 
 class ElasticPlastic(Material):
-    """Metal that yields by von Mises' rule, for large strains, with isotropic hardening."""
+    """Metal with von Mises plasticity and isotropic hardening, for large strains."""
 
     def __init__(
         self,
@@ -368,10 +368,10 @@ def _hardening(
 
 
 class OwnMaterial(Material):
-    """An elastic law that a function of Python states.
+    """A user-defined elastic law: a Python function states its response.
 
-    It is called for each integration point in each iteration, one call at a time, so such a
-    model is slow. An exception in it ends the run and is raised.
+    The function is called for each integration point in each iteration, one call at a time, so such
+    a model is slow. An exception in it ends the run and is raised.
     """
 
     def __init__(
@@ -379,15 +379,15 @@ class OwnMaterial(Material):
         response: Callable[[Floats], Optional[tuple[float, npt.ArrayLike, npt.ArrayLike]]],
         name: str = "own",
     ) -> None:
-        """Makes the material, and holds the function against the laws of elasticity: no energy
-        and stress at rest, stress and tangent that are derivatives, a symmetric tangent, and
-        indifference to rotations. Otherwise one :class:`ModelError` says what is wrong.
+        """Makes the material, and checks the function against the laws of elasticity: no energy and
+        stress at rest, stress and tangent that are derivatives, a symmetric tangent, and
+        indifference to rotations. A law that fails raises a :class:`ModelError` with the reason.
 
         response: from the deformation gradient ``F``, of shape (3, 3) (no unit), to the stored
-            energy (per reference volume), the first Piola-Kirchhoff stress ``P``, of shape
-            (3, 3) (force per reference area), and the tangent ``dP_iJ/dF_kL``, of shape
-            (3, 3, 3, 3) (force per reference area); ``None`` where it allows no such
-            deformation, and the increment is cut. It must answer the same each time.
+            energy (per reference volume), the first Piola-Kirchhoff stress ``P``, of shape (3, 3)
+            (force per reference area), and the tangent ``dP_iJ/dF_kL``, of shape (3, 3, 3, 3)
+            (force per reference area); ``None`` for a deformation that it does not allow, which
+            cuts the increment. It must return equal values each time.
         name: of the law in messages.
         """
         if not callable(response):
@@ -403,7 +403,7 @@ class OwnMaterial(Material):
 def _checked(
     response: Callable[[Floats], Optional[tuple[float, npt.ArrayLike, npt.ArrayLike]]], name: str
 ) -> Callable[[Floats], Optional[tuple[float, Floats, Floats]]]:
-    """The function with its answers as numbers and arrays of the right shapes."""
+    """The function, with its values converted to numbers and arrays of the right shapes."""
 
     def called(gradient: Floats) -> Optional[tuple[float, Floats, Floats]]:
         answer = response(gradient)

@@ -15,15 +15,15 @@ from . import _striae as native
 from ._check import Floats, Ints, Members, Vector
 from ._errors import refuse
 
-#: Kinds of cells that meshes are made of, as meshio calls them, and their corners.
+#: Kinds of cells, by their names in meshio, and their corners.
 KINDS = {"hexahedron": 8, "wedge": 6, "pyramid": 5, "tetra": 4, "tetra10": 10}
 
-#: What the hexahedra of generators are cut into.
+#: Kinds of cells that the hexahedra of generators are divided into.
 CellKind = Literal["hexahedron", "wedge", "pyramid", "tetra", "tetra10"]
 
 
 def frozen(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    """The array, not to be written to."""
+    """The array, made read-only."""
     array.setflags(write=False)
     return array
 
@@ -31,9 +31,9 @@ def frozen(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
 class Mesh:
     """Hexahedra, wedges, pyramids and tetrahedra with named sets of nodes, facets and elements.
 
-    The sets ``all`` of facets and of elements are always there.
-    A mesh does not change: :meth:`with_sets` makes a new one. Arrays that it gives are
-    made once and cannot be written to. Positions are lengths in the units of the user.
+    The sets ``all`` of facets and of elements always exist. A mesh does not change:
+    :meth:`with_sets` makes a new one. Returned arrays are made once and are read-only. Positions
+    are lengths in the units of the user.
     """
 
     _native: native.Mesh
@@ -50,9 +50,9 @@ class Mesh:
         """Makes a mesh from arrays.
 
         points: positions of the nodes, of shape (n, 3) (length).
-        cells: ``{"hexahedron": corners}``, corners of shape (m, 8), counted from 0 and
-            numbered as VTK's and meshio's cells; also ``wedge`` (6 corners), ``pyramid`` (5),
-            ``tetra`` (4) and ``tetra10`` (10, middles of edges included), alone or together.
+        cells: ``{"hexahedron": corners}``, corners of shape (m, 8), counted from 0 and numbered as
+            VTK's and meshio's cells; also ``wedge`` (6 corners), ``pyramid`` (5), ``tetra`` (4) and
+            ``tetra10`` (10, midside nodes included), alone or together.
         node_sets: members of named sets of nodes, see :meth:`with_sets`.
         facet_sets: members of named sets of facets, see :meth:`with_sets`.
         element_sets: members of named sets of elements, see :meth:`with_sets`.
@@ -155,8 +155,8 @@ class Mesh:
 
     @property
     def middles(self) -> Floats:
-        """Middles of the elements at rest, means of their corners, of shape (m, 3), in the order
-        of :attr:`cells` (length)."""
+        """Centres of the elements at rest, means of their corners, of shape (m, 3), in the order of
+        :attr:`cells` (length)."""
         found: Floats = self._array("middles", self._native.middles)
         return found
 
@@ -177,8 +177,7 @@ class Mesh:
         return found
 
     def facets_along(self, direction: Vector, angle: float) -> Ints:
-        """Corners of the facets that look along a direction, of shape (m, 4), for
-        :meth:`with_sets`.
+        """Corners of the facets that face a direction, of shape (m, 4), for :meth:`with_sets`.
 
         direction: of any length but zero.
         angle: largest angle between it and the outward normal (degrees).
@@ -189,12 +188,12 @@ class Mesh:
         return self._native.facets_along(towards, math.radians(half_turn(angle, "angle")))
 
     def facets_around(self, place: Vector, feature_angle: float) -> Ints:
-        """Corners of the facets that are reached from the one nearest to a place without passing
-        a sharp edge, of shape (m, 4), for :meth:`with_sets`.
+        """Corners of the facets that can be reached from the one nearest to a place without
+        crossing a sharp edge, of shape (m, 4), for :meth:`with_sets`.
 
         place: position (length).
-        feature_angle: largest angle between the normals on the two sides of an edge that is
-            passed (degrees).
+        feature_angle: largest angle between the normals on the two sides of an edge that is crossed
+            (degrees).
         """
         turn = math.radians(half_turn(feature_angle, "feature_angle"))
         return self._native.facets_around(check.vector(place, "place"), turn)
@@ -221,8 +220,9 @@ class Mesh:
 
         nodes: by name the numbers of the nodes, a boolean mask over all nodes, or a function
             that takes the positions, of shape (n, 3), and returns a mask.
-        facets: by name the corners of the facets, of shape (m, 4), or (m, 3) for triangles,
-            and in any order, or nodes in one of the ways above: then all facets of the boundary with all corners there.
+        facets: by name the corners of the facets, of shape (m, 4), or (m, 3) for triangles, and in
+            any order, or nodes in one of the ways above: then all boundary facets with all corners
+            among them.
         elements: by name the numbers of the elements in the order of :attr:`cells`, a boolean
             mask over all elements, or a function that takes :attr:`middles` and returns a mask.
         """
@@ -259,7 +259,7 @@ def _again(points: Floats, cells: Any, nodes: Any, facets: Any, elements: Any) -
 
 
 def chosen(members: Members, places: Floats, path: str) -> Ints:
-    """Numbers of what lies at some of the places."""
+    """Numbers of the nodes or elements selected by members."""
     found = np.asarray(members(places) if callable(members) else members)
     count = len(places)
     if found.dtype == np.bool_:
@@ -293,7 +293,7 @@ def half_turn(angle: float, name: str) -> float:
 
 
 def listed(names: Mapping[str, Any]) -> str:
-    """What there is instead."""
+    """End of a message: the names that exist."""
     known = ", ".join(f"`{name}`" for name in sorted(names))
     return f"; it has {known}" if known else "; it has none"
 
@@ -302,8 +302,8 @@ class Grading:
     """Lengths of the intervals along an edge of a generated mesh."""
 
     def __init__(self, word: str, numbers: list[float]) -> None:
-        """Made by :meth:`one_sided`, :meth:`symmetric` and :meth:`lengths`, which know the word and
-        the numbers."""
+        """Use :meth:`one_sided`, :meth:`symmetric` or :meth:`lengths`, which set the word and the
+        numbers."""
         self._intervals = (word, numbers)
 
     @classmethod
@@ -352,14 +352,14 @@ def block(
     size: lengths of the edges (length).
     divisions: elements along the edges.
     origin: corner of smallest coordinates, before rotation (length).
-    grading: intervals along ``x``, ``y``, ``z``; equal where nothing is said.
-    rotation: axis and angle (degrees) by which the whole block is turned.
-    about: point that stays (length); the middle by default.
-    mesh_rotation: angle by which the mesh turns about z inside the outline (degrees).
+    grading: intervals along ``x``, ``y``, ``z``; equal by default.
+    rotation: axis and angle (degrees) by which the whole block is rotated.
+    about: fixed point of the rotation (length); the centre by default.
+    mesh_rotation: angle by which the mesh is rotated about z inside the outline (degrees).
     bottom_slopes, top_slopes: slopes of the lower and upper side along x and y (no unit).
     irregularity: random displacement of inner nodes over the interval, below 0.5.
     seed: of the random displacement.
-    cells: kind of the cells into which each division is cut.
+    cells: kind of the cells into which each division is divided.
     """
     turn = None
     if rotation is not None:
@@ -407,8 +407,8 @@ def capped_block(
     fine_half_width: half edge of the square with elements of this size (length).
     fine_depth: depth to which they have this height (length).
     growth: largest ratio of neighbouring sizes outside (no unit).
-    half: whether only y >= 0 from the apex is meshed; ``ymin`` is then the plane of symmetry.
-    cells: kind of the cells into which its hexahedra are cut.
+    half: if true, only y >= 0 from the apex is meshed; ``ymin`` is then the plane of symmetry.
+    cells: kind of the cells into which its hexahedra are divided.
     """
     lengths = [height, radius, element_size, fine_half_width, fine_depth, growth]
     names = ["height", "radius", "element_size", "fine_half_width", "fine_depth", "growth"]
@@ -437,7 +437,7 @@ def half_cylinder(
     """A slice of half a cylinder along y with the sets ``arc``, ``flat``, ``ymin``, ``ymax``.
 
     apex: contact point, lowest of the lower half, highest of the upper one (length).
-    upper: whether it is the upper half, with the arc upwards.
+    upper: if true, it is the upper half, with the arc upwards.
     radius: of the cylinder (length).
     thickness: extent along y (length).
     layers: elements along y.
@@ -474,12 +474,12 @@ def annulus(
 ) -> Mesh:
     """A ring, such as a tyre, with the sets ``rim``, ``tread``, ``ymin``, ``ymax``, ``sides``.
 
-    centre: middle of the ring (length).
+    centre: centre of the ring (length).
     axis: of the ring, of any length.
     inner_radius, outer_radius: radii (length).
     width: extent along the axis (length).
     divisions: elements along radius, circumference and axis.
-    grading: intervals along ``radial`` and ``axial``; equal where nothing is said.
+    grading: intervals along ``radial`` and ``axial``; equal by default.
     refinement: angle to either side of the lowest point with the smallest elements (degrees),
         and size at the highest point over that at the lowest (no unit).
     """
@@ -511,17 +511,17 @@ def cylinder(
     grading: Optional[Mapping[str, Grading]] = None,
     quarter: bool = False,
 ) -> Mesh:
-    """A solid cylinder with the sets ``side``, ``zmin``, ``zmax``, named before it is turned.
+    """A solid cylinder with the sets ``side``, ``zmin``, ``zmax``, named before rotation.
 
-    base: middle of the side ``zmin`` (length).
+    base: centre of the side ``zmin`` (length).
     axis: from there, of any length.
     radius: radius (length).
     height: extent along the axis (length).
     divisions: elements along half an edge of the square core, from the core to the side, and
         along the axis; a quarter turn has twice the first number.
-    grading: intervals along ``axial``; equal where nothing is said.
-    quarter: whether only x >= 0 and y >= 0 is meshed; ``xmin`` and ``ymin`` are then its
-        planes of symmetry.
+    grading: intervals along ``axial``; equal by default.
+    quarter: if true, only x >= 0 and y >= 0 is meshed; ``xmin`` and ``ymin`` are then its planes of
+        symmetry.
     """
     return Mesh._of(
         native.cylinder(
@@ -546,9 +546,9 @@ def torus(
 ) -> Mesh:
     """A ring of round section, such as an O-ring, with the set ``surface``.
 
-    centre: middle of the ring (length).
+    centre: centre of the ring (length).
     axis: of the ring, of any length.
-    ring_radius: of the circle on which the middles of the sections lie (length).
+    ring_radius: of the circle on which the centres of the sections lie (length).
     section_radius: of the section (length).
     divisions: elements along half an edge of the square core of the section, from the core
         to the surface, and around the axis; the section has eight times the first number
@@ -569,8 +569,8 @@ def read_mesh(path: Union[str, os.PathLike[str]], *, elements: Optional[str] = N
     """Reads the mesh of a Gmsh, Abaqus or VTK file with its sets.
 
     path: the file.
-    elements: the part that is read, an element set, a physical volume of Gmsh or an instance
-        of Abaqus, with what is on it of all sets; the whole file by default.
+    elements: the part that is read, an element set, a physical volume of Gmsh or an instance of
+        Abaqus, with the members of all sets that it contains; the whole file by default.
     """
     if elements is not None and not isinstance(elements, str):
         raise TypeError(f"elements: a name is needed, not {type(elements).__name__}")

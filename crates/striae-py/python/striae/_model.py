@@ -38,8 +38,8 @@ class Solver:
     ) -> None:
         """Makes the settings.
 
-        backend: factorisation: ``condensed`` (bodies by Cholesky, contact by dense algebra,
-            and another one where that does not pay), ``multifrontal``, ``faer``, ``iterative``.
+        backend: factorisation: ``condensed`` (bodies by Cholesky, contact by dense algebra, or
+            another one if that is cheaper), ``multifrontal``, ``faer``, ``iterative``.
         tolerance: relative tolerance of every residual field (no unit).
         largest_iterations: iterations after which an increment is cut.
         """
@@ -58,50 +58,50 @@ class Solver:
 
 
 class Fit(NamedTuple):
-    """How the meshes of a pair fit before anything has moved."""
+    """Initial fit of the meshes of a pair."""
 
     pair: str
     """Name of the pair."""
     gap: Optional[float]
-    """Smallest gap; ``None`` where the sides do not face each other (length)."""
+    """Smallest gap; ``None`` if the sides do not face each other (length)."""
     overlap: float
     """Deepest overlap (length)."""
     distance: float
-    """Nearest distance of the sides, whatever faces what (length)."""
+    """Smallest distance between the sides, whether they face each other or not (length)."""
 
 
 class Check(NamedTuple):
-    """What :meth:`Model.check` found."""
+    """Findings of :meth:`Model.check`."""
 
     unknowns: int
     """Unknowns at the start."""
     fits: list[Fit]
-    """How the pairs fit."""
+    """Initial fit of the pairs."""
     warnings: list[str]
-    """What is likely to be meant otherwise."""
+    """Warnings: settings that are likely to be unintended."""
 
 
 class Remark(NamedTuple):
-    """One thing to know of a model before it is run."""
+    """One remark on a model before it is run."""
 
     topic: str
-    """What it is about: ``shape``, ``units``, ``locking``, ``bending``, ``hold``, ``fit``,
-    ``facing``, ``never-meets``, ``contact``, ``friction``, ``texture`` or ``cost``."""
+    """Topic: ``shape``, ``units``, ``locking``, ``bending``, ``hold``, ``fit``, ``facing``,
+    ``never-meets``, ``contact``, ``friction``, ``texture`` or ``cost``."""
     name: Optional[str]
-    """Name of the body, pair or step it is about, if it is about one."""
+    """Name of the body, pair or step it concerns, if it concerns one."""
     text: str
-    """In a sentence."""
+    """Text of the remark."""
 
 
 class Advice(NamedTuple):
-    """What :meth:`Model.advice` has to say, as ``striae check`` of a deck."""
+    """Findings of :meth:`Model.advice`, those of ``striae check`` for a deck."""
 
     faults: list[Remark]
-    """What makes a run impossible."""
+    """Remarks on what makes a run impossible."""
     warnings: list[Remark]
-    """What makes results doubtful."""
+    """Remarks on what makes results doubtful."""
     notes: list[Remark]
-    """What is good to know."""
+    """Remarks of general interest."""
 
     def __str__(self) -> str:
         kinds = zip(("note", "warning", "fault"), (self.notes, self.warnings, self.faults))
@@ -109,7 +109,7 @@ class Advice(NamedTuple):
 
 
 class Model:
-    """What is to be simulated. Quantities are in one consistent system of units of your choice."""
+    """A simulation model. Quantities are in one consistent system of units of your choice."""
 
     _title: str
     _base: Optional[native.Model]
@@ -142,7 +142,7 @@ class Model:
         pairs: contact pairs.
         ties: surfaces of bodies that are glued.
         steps: the loading history; :meth:`step` adds to it.
-        title: a line that says what it is.
+        title: description in one line.
         solver: settings of the solver.
         """
         self._begin(title)
@@ -182,20 +182,20 @@ class Model:
 
     @classmethod
     def from_text(cls, text: str, folder: Path = ".") -> Model:
-        """The model of a deck that is at hand as text.
+        """The model of a deck given as text.
 
         text: the deck, TOML.
-        folder: to which paths in the deck are relative.
+        folder: that paths in the deck are relative to.
         """
         return cls._of(native.Model.from_text(text, os.fspath(folder)))
 
     def to_deck(self, path: Optional[Path] = None) -> str:
         """The model as the text of a deck, from which :meth:`from_text` and the program make an
-        equal one: runs of both have the same bits.
+        equal one, with results identical to the last bit.
 
-        Meshes are written out in it, however they were made, and so are all defaults.
+        Meshes are written out in full, however they were made, and so are all defaults.
 
-        path: file to which it is written, too.
+        path: file to write the text to, in addition.
         """
         text = self._compiled().to_deck()
         if path is not None:
@@ -211,7 +211,7 @@ class Model:
         increments: Union[int, Increments] = 10,
         dynamics: Optional[Dynamics] = None,
     ) -> Step:
-        """Adds a step after those before.
+        """Adds a step at the end.
 
         name: unique name.
         conditions: what the step states.
@@ -240,30 +240,30 @@ class Model:
         stabilise: bool = False,
     ) -> None:
         """Lets every surface touch every surface: all skins of bodies and all rigid bodies with
-        each other, and each body with itself. Facets of a pair of the model are left to it, and
+        each other, and each body with itself. Facets of a pair of the model keep its settings, and
         tied facets are left out.
 
-        It comes down to pairs, whose names are made of those of their surfaces, such as
-        ``tread-road``, ``tread-tread`` or ``tread.zmin-road``; see :attr:`pair_names`.
+        This makes pairs, which are named after their surfaces, such as ``tread-road``,
+        ``tread-tread`` or ``tread.zmin-road``; see :attr:`pair_names`.
 
         Surfaces are bodies, facet sets ``body["top"]``, rigid bodies, or labels: ``"tread"``,
         ``"tread.zmin"``.
 
-        friction: law where ``between`` says nothing; steps may change it. Frictionless by
+        friction: law for surfaces not named in ``between``; steps may change it. Frictionless by
             default.
         exclude: surfaces that touch nothing, and tuples of two that do not touch each other.
         between: tuples of two surfaces and their law; of several statements about the same
             facets, here and in ``exclude``, the narrowest counts.
         textures: surfaces with textures, ``body["top"].textured((1, 0, 0))``, for laws that need
-            one; those of rigid bodies and of surfaces in ``between`` are taken by themselves.
-        feature_angle: dihedral angle from which on an edge separates faces, each of which has a
-            normal and a traction of its own there (degrees).
-        search_distance: over which contact is looked for ahead (length); it bears on the
-            cost, not on the result.
-        initial: what is made of gaps and overlaps of the meshes of different bodies, as in
+            one; those of rigid bodies and of surfaces in ``between`` are found without it.
+        feature_angle: dihedral angle from which on an edge separates faces, each with its own
+            normal and traction there (degrees).
+        search_distance: distance within which contact is searched (length); it affects the cost,
+            not the result.
+        initial: treatment of gaps and overlaps of the meshes of different bodies, as in
             :class:`Pair`.
-        stabilise: whether viscous forces carry bodies that nothing else holds across a gap,
-            in steps without inertia.
+        stabilise: if true, viscous forces carry bodies without other restraints across a gap, in
+            steps without inertia.
         """
         if self._base is not None:
             raise refuse("model", "the contact of a deck is stated in it")
@@ -280,7 +280,7 @@ class Model:
 
     @property
     def title(self) -> str:
-        """A line that says what the model is."""
+        """Description of the model in one line."""
         return self._title
 
     @property
@@ -305,8 +305,8 @@ class Model:
 
     @property
     def pair_names(self) -> list[str]:
-        """Names of the pairs, with those that :meth:`contact_all` comes down to; for these the
-        model must be whole, with its steps."""
+        """Names of the pairs, including those made by :meth:`contact_all`; for these the model must
+        be complete, with its steps."""
         if self._base is not None:
             return self._base.pairs()
         if self._everything is not None:
@@ -325,7 +325,7 @@ class Model:
 
     @property
     def last_run(self) -> Optional[Run]:
-        """The last run of the model, also if an exception ended it."""
+        """The last run of the model, even if an exception ended it."""
         return self._last_run
 
     def body(self, name: str) -> Body:
@@ -357,7 +357,7 @@ class Model:
         return _change(self.pair_names[self._position("pair", self.pair_names, pair)], friction)
 
     def check(self) -> Check:
-        """Finds all faults; raises :class:`ModelError` with them, or says how the meshes fit.
+        """Finds all faults; raises :class:`ModelError` with them, or returns how the meshes fit.
 
         Nothing is computed yet. :meth:`run` checks, too.
         """
@@ -367,10 +367,9 @@ class Model:
         return Check(unknowns, [Fit(name, *fit) for name, fit in named], warnings)
 
     def advice(self) -> Advice:
-        """Looks at the model as ``striae check`` does: extent and shape of bodies, units,
-        locking, what holds each body, gaps and overlaps, friction over all directions, memory
-        and time. Raises :class:`ModelError` where the model has faults of its own; nothing is
-        computed yet.
+        """Inspects the model like ``striae check``: extent and shape of bodies, units, locking,
+        restraint of each body, gaps and overlaps, friction over all directions, memory and time.
+        Raises :class:`ModelError` if the model has faults; nothing is computed yet.
         """
         found = self._compiled().advice()
         faults, warnings, notes = [[Remark(*one) for one in remarks] for remarks in found]
@@ -389,9 +388,9 @@ class Model:
     ) -> Run:
         """Runs the model.
 
-        Other threads of Python go on meanwhile. Ctrl-C ends the run after the increment under
-        way and raises :class:`RunInterrupted`; an exception of ``on_increment`` ends it, too.
-        In both cases files are complete and :attr:`last_run` has what had converged.
+        Other Python threads continue meanwhile. Ctrl-C ends the run after the current increment and
+        raises :class:`RunInterrupted`; an exception of ``on_increment`` ends it, too. In both cases
+        files are complete and :attr:`last_run` has all converged increments.
 
         on_increment: called with each converged increment on the thread that runs the model;
             if it returns ``False``, the run ends there.
@@ -399,11 +398,11 @@ class Model:
             summary); nothing is written by default.
         case: name of the case in these files; the title, or that of the deck, by default.
         fields_every: increments between files of fields; 0: only the last.
-        keep: increments of which the state is kept in memory: ``all``, ``steps`` (the last
-            one of each step), ``last``, or a number, every so many. The last is always kept.
+        keep: increments whose state is kept in memory: ``all``, ``steps`` (the last one of each
+            step), ``last``, or a number ``n`` for every ``n``-th. The last is always kept.
         threads: number of threads; that of the machine by default. Results do not depend on it.
-        on_stop: what becomes of a run that cannot reach its end: ``raise``
-            :class:`RunStopped`, or ``return`` it.
+        on_stop: treatment of a run that cannot reach its end: ``raise`` :class:`RunStopped`, or
+            ``return`` the run.
         """
         check.word(on_stop, ("raise", "return"), "on_stop")
         watching = watch(on_increment, keep, threads, self)
@@ -413,7 +412,7 @@ class Model:
     def _run(
         self, threads: int, keep: Keep, output: Optional[Path], fields_every: Optional[int]
     ) -> Run:
-        """The run as one of many, whatever its ending, with warnings that are not told yet."""
+        """The run as one of many, whatever its ending, with warnings that are not issued yet."""
         watching = watch(None, keep, threads, self)
         ended = self._ended(watching, record(output, None, fields_every))
         return closed(ended, self, "return", output)

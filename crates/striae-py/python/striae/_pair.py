@@ -38,26 +38,25 @@ class Pair(Made):
     ) -> None:
         """Makes a pair.
 
-        a, b: facet sets of bodies, with their textures, or rigid bodies; ``itself`` as ``b``
-            where facets of ``a`` may touch each other.
+        a, b: facet sets of bodies, with their textures, or rigid bodies; ``itself`` as ``b`` if
+            facets of ``a`` may touch each other.
         friction: law from the start; steps may change it. Frictionless by default.
         name: unique name; made of the names of the bodies by default.
-        initial: what is made of gaps and overlaps of the meshes: ``as-meshed`` takes gaps as
-            they are and refuses overlaps, ``close`` moves nodes without strain, ``resolve``
-            presses overlaps out in the first step; a number closes gaps up to it (length).
-        interference: of a press fit (length): the sides are taken as touching at the start
-            where they face each other within the search distance or overlap, whatever the gap
-            between their facets is, and are pressed apart by this much in the first step;
-            negative for a clearance. By default gaps are those of the meshes.
+        initial: treatment of gaps and overlaps of the meshes: ``as-meshed`` keeps gaps and refuses
+            overlaps, ``close`` moves nodes without strain, ``resolve`` removes overlaps gradually
+            during the first step; a number closes gaps up to that size (length).
+        interference: of a press fit (length): where the sides face each other within the search
+            distance or overlap, they count as touching at the start, whatever the gap between their
+            facets, and are pressed apart by this much in the first step; negative for a clearance.
+            By default gaps are those of the meshes.
         curve: how the interference is approached in the first step.
-        stabilise: whether viscous forces carry bodies that nothing else holds across a gap,
-            in steps without inertia; they fall to zero within the step.
+        stabilise: if true, viscous forces carry bodies without other restraints across a gap, in
+            steps without inertia; they fall to zero within the step.
         enforcement: ``weighted``, or ``collocated`` as in the paper, for comparison.
-        search_distance: over which contact is looked for ahead (length); it bears on the
-            cost, not on the result.
-        feature_angle: dihedral angle from which on an edge separates faces, each of which has a
-            normal and a traction of its own there (degrees); by default all faces at a node
-            have one.
+        search_distance: distance within which contact is searched (length); it affects the cost,
+            not the result.
+        feature_angle: dihedral angle from which on an edge separates faces, each with its own
+            normal and traction there (degrees); by default all faces at a node share one.
         """
         on_itself = isinstance(b, str) and check.word(b, ("itself",), "b") == "itself"
         for side, path in [(a, "a"), (a if on_itself else b, "b")]:

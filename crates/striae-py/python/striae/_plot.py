@@ -30,7 +30,7 @@ def _axes(axes: Optional[Axes]) -> Axes:
 
 
 def draw_history(history: History, columns: Sequence[str], axes: Optional[Axes]) -> Axes:
-    """Columns over time; the forces of all pairs where none is named."""
+    """Columns over time; the forces of all pairs by default."""
     on = _axes(axes)
     chosen = list(columns) or [name for name in history if ".resultant_a." in name]
     for name in chosen:

@@ -1,8 +1,8 @@
 """Runs in processes of their own.
 
-A model travels as a deck, which has its bits, and a run comes back as files in a folder that is
-gone afterwards. The new process is an interpreter that imports this package and nothing of
-the caller, so no script needs a guard and no lock or thread of this one is copied.
+A model is passed as a deck, which preserves all of its bits, and a run is returned as files in a
+temporary folder. The new process is an interpreter that imports this package and nothing of the
+caller, so scripts need no guard and no lock or thread of this process is copied.
 """
 
 from __future__ import annotations
@@ -24,18 +24,18 @@ from ._errors import ModelError, SweepError, refuse
 from ._model import Model
 from ._run import Run
 
-#: What a process begins with.
+#: Code that a process starts with.
 START = (
     "import sys; sys.path[:] = sys.argv[2:];"
     "from striae._worker import main; sys.exit(main(sys.argv[1]))"
 )
 
-#: Seconds between two looks at the processes.
+#: Seconds between two polls of the processes.
 TICK = 0.02
 
 
 class Job(NamedTuple):
-    """A run under way."""
+    """A run in progress."""
 
     parameters: dict[str, Any]
     model: Model
@@ -46,7 +46,7 @@ class Job(NamedTuple):
 
 
 class Workers:
-    """So many processes at a time; all have ended when the block ends."""
+    """A limited number of processes at a time; all have ended when the block ends."""
 
     def __init__(self, count: int) -> None:
         self._count = count
@@ -77,7 +77,7 @@ class Workers:
         model_of: Callable[..., Model],
         job: dict[str, Any],
     ) -> None:
-        """Begins a run as soon as a place is free."""
+        """Starts a run as soon as a process slot is free."""
         number, self._begun = self._begun, self._begun + 1
         folder = self._place / str(number)
         folder.mkdir()
@@ -97,13 +97,13 @@ class Workers:
         self._under_way[number] = Job(parameters, model, compiled, folder, output, process)
 
     def runs(self) -> list[Run]:
-        """The runs in the order in which they began, when all have ended."""
+        """The runs in the order in which they were started, once all have ended."""
         while self._under_way:
             self._look()
         return [self._runs[number] for number in range(self._begun)]
 
     def _look(self) -> None:
-        """Takes the results of processes that have ended, or waits a little."""
+        """Collects the results of processes that have ended, or waits a little."""
         ended = [n for n, job in self._under_way.items() if job.process.poll() is not None]
         if not ended:
             time.sleep(TICK)
@@ -128,7 +128,7 @@ def _call(model_of: Callable[..., Model], parameters: dict[str, Any]) -> bytes:
 
 
 def _started(folder: Path) -> subprocess.Popen[bytes]:
-    """The process; it finds modules where this one does and nowhere else."""
+    """The process, with the module path of this one."""
     command = [sys.executable, "-c", START, str(folder), *sys.path]
     with open(folder / "stderr", "wb") as errors:
         return subprocess.Popen(

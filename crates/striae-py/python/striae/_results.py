@@ -1,6 +1,6 @@
 """Results of an increment by bodies, pairs and rigid bodies.
 
-Arrays are made when they are asked for the first time, and cannot be written to.
+Arrays are made on first access and are read-only.
 """
 
 from __future__ import annotations
@@ -57,14 +57,14 @@ class Energies(NamedTuple):
     numerical: float
     """Work lost to time integration."""
     imbalance: float
-    """Work of what is outside and of actuation that is found nowhere."""
+    """Work of external forces and actuation that the other energies do not account for."""
 
 
 class BodyResults:
     """Results of a deformable body at the nodes of its mesh."""
 
     def __init__(self, results: native.Results, name: str) -> None:
-        """Results are got from an increment, ``increment.body("pad")``."""
+        """Use ``increment.body("pad")`` to get results."""
         self._results = results
         self.name = name
         """Name of the body."""
@@ -126,7 +126,7 @@ class SideResults:
     """Contact at the nodes of a deformable side of a pair."""
 
     def __init__(self, results: native.Results, pair: int, b: bool) -> None:
-        """Results are got from a pair, ``increment.pair(0).a``."""
+        """Use ``increment.pair(0).a`` to get results."""
         self._results, self._pair, self._b = results, pair, b
 
     @cached_property
@@ -153,7 +153,7 @@ class SideResults:
 
     @property
     def gap(self) -> Floats:
-        """Gaps to the other side, of shape (n,), negative where it is penetrated (length)."""
+        """Gaps to the other side, of shape (n,), negative for penetration (length)."""
         return self._known["gap"]
 
     @property
@@ -194,8 +194,8 @@ class SideResults:
 
     @property
     def texture(self) -> Floats:
-        """Unit directions of the texture as it lies now, of shape (n, 3); zero without one (no
-        unit)."""
+        """Unit directions of the texture in the current configuration, of shape (n, 3); zero
+        without one (no unit)."""
         return self._known["texture"]
 
     @property
@@ -208,7 +208,7 @@ class PairResults:
     """Results of a contact pair; fields at nodes are those of side ``a``."""
 
     def __init__(self, results: native.Results, index: int, name: str) -> None:
-        """Results are got from an increment, ``increment.pair("pad-floor")``."""
+        """Use ``increment.pair("pad-floor")`` to get results."""
         self._results = results
         self.name = name
         """Name of the pair."""
@@ -248,7 +248,8 @@ class PairResults:
 
     @property
     def mismatch(self) -> float:
-        """Length of the sum of the forces on both sides over the larger of them (no unit)."""
+        """Magnitude of the sum of the forces on both sides, relative to the larger one (no
+        unit)."""
         return float(self._whole["mismatch"])
 
     @property
@@ -320,7 +321,7 @@ class PairResults:
         """Draws the contact patch with matplotlib: mean pressure as colour, friction as arrows.
 
         axes: where it is drawn; on a new figure by default.
-        side: whose nodes are drawn.
+        side: side whose nodes are drawn.
         """
         from ._plot import draw_patch
 
@@ -357,25 +358,27 @@ class TieResults(NamedTuple):
     moment_b: Floats
     """Moment on side ``b`` about the origin, of shape (3,) (force times length)."""
     area: float
-    """Area at rest that is tied (length squared)."""
+    """Tied area at rest (length squared)."""
     mismatch: float
-    """Length of the sum of both forces over the sum of the lengths of nodal forces (no unit)."""
+    """Magnitude of the sum of both forces, relative to the sum of the magnitudes of nodal forces
+    (no unit)."""
     moment_mismatch: float
-    """Length of the sum of both moments over the same times the root of the area (no unit)."""
+    """Magnitude of the sum of both moments, relative to that sum times the square root of the area
+    (no unit)."""
 
 
 class Increment:
     """The converged state at the end of an increment."""
 
     def __init__(self, results: native.Results, model: Model) -> None:
-        """Increments are got from a run, ``run[-1]``, and given to ``on_increment``."""
+        """Use ``run[-1]`` to get an increment; ``on_increment`` receives each one."""
         self._results, self._model = results, model
         self._bodies: dict[str, BodyResults] = {}
         self._pairs: dict[int, PairResults] = {}
 
     @property
     def time(self) -> float:
-        """Time at its end, without inertia a mere parameter (time)."""
+        """Time at its end; a mere parameter without inertia (time)."""
         return self._results.time
 
     @property
@@ -390,12 +393,12 @@ class Increment:
 
     @property
     def fraction(self) -> float:
-        """Fraction of the step that is done (no unit)."""
+        """Completed fraction of the step (no unit)."""
         return self._results.fraction
 
     @property
     def iterations(self) -> int:
-        """Iterations of Newton's method that it took."""
+        """Number of iterations of Newton's method (no unit)."""
         return self._results.iterations
 
     @cached_property

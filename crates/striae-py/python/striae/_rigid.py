@@ -1,6 +1,6 @@
-"""Rigid bodies: planes, surfaces of facets, and what nodes are tied to.
+"""Rigid bodies: planes, surfaces of facets, and bodies without a surface that nodes are tied to.
 
-They turn about their reference point. At first all their coordinates are held.
+They rotate about their reference point. Initially all their coordinates are held.
 """
 
 from __future__ import annotations
@@ -77,8 +77,8 @@ class Rigid(Made):
         """Moves or drives the body.
 
         displacement: target of the reference point (length).
-        rotation: targets of the angles turned about the fixed axes (degrees).
-        free: coordinates that forces decide from now on.
+        rotation: targets of the rotation angles about the fixed axes (degrees).
+        free: coordinates that are free from now on and follow the forces.
         force: target of the force at the reference point, on free coordinates.
         torque: target of the torque, on free coordinates (force times length).
         curve: how the targets are approached.
@@ -107,8 +107,8 @@ class Rigid(Made):
         spin: Vector = (0.0, 0.0, 0.0),
         about: Vector = (0.0, 0.0, 0.0),
     ) -> Condition:
-        """Gives the body and all that is tied to it the velocity ``value + spin x (x - about)``
-        at the start of a dynamic step.
+        """Gives the body and everything tied to it the velocity ``value + spin x (x - about)`` at
+        the start of a dynamic step.
 
         value: velocity (length per time).
         spin: angular velocity (radians per time).
@@ -142,7 +142,7 @@ class Plane(Rigid):
         normal: out of the rigid half space, of any length.
         point: a point of the plane (length).
         texture: a texture, or one direction of any length.
-        reference: point about which it turns; the origin by default (length).
+        reference: point about which it rotates; the origin by default (length).
         mass: of the body; needs ``inertia``.
         inertia: principal moments about the coordinate axes through the reference point (mass
             times length squared).
@@ -178,7 +178,7 @@ class RigidSurface(Rigid):
         texture: a texture, or one direction of any length.
         density: of the solid inside a closed surface (mass per volume), from which mass,
             centre and moments of inertia follow.
-        reference: point about which it turns; the centre of mass with ``density``, else the
+        reference: point about which it rotates; the centre of mass with ``density``, else the
             origin (length).
         mass: of the body; needs ``inertia``.
         inertia: principal moments about the coordinate axes through the reference point (mass
@@ -209,7 +209,7 @@ class RigidBody(Rigid):
 
         name: unique name.
         tied: sets of nodes that follow it.
-        reference: point about which it turns; the origin by default (length).
+        reference: point about which it rotates; the origin by default (length).
         mass: of the body; needs ``inertia``.
         inertia: principal moments about the coordinate axes through the reference point (mass
             times length squared).

@@ -1,4 +1,4 @@
-"""Runs that have ended, and their histories."""
+"""Finished runs and their histories."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ Path = Union[str, os.PathLike[str]]
 Callback = Callable[[Increment], Optional[bool]]
 Keep = Union[Literal["all", "steps", "last"], int]
 
-#: So many increments are between states that are kept if only the last one is.
+#: Number of increments between kept states if only the last one is kept.
 NEVER = 2**62
 
 
@@ -39,12 +39,11 @@ class History(Mapping[str, Floats]):
     """Resultants, reactions, motions and energies over the increments, by column.
 
     Columns are named as in ``history.csv``: ``time``, ``pair.NAME.resultant_a.z``,
-    ``reaction.BODY.SET.x``, ``energy.friction``, ... They are views of one table that cannot
-    be written to.
+    ``reaction.BODY.SET.x``, ``energy.friction``, ... They are read-only views of one table.
     """
 
     def __init__(self, columns: list[str], rows: Floats) -> None:
-        """Histories are got from a run, ``run.history``."""
+        """Use ``run.history`` to get a history."""
         self._columns = {name: index for index, name in enumerate(columns)}
         self._rows = frozen(rows)
 
@@ -89,7 +88,7 @@ class History(Mapping[str, Floats]):
 
 
 class Run(Sequence[Increment]):
-    """A run that has ended: the sequence of the increments that were kept."""
+    """A finished run: the sequence of its kept increments."""
 
     def __init__(
         self,
@@ -98,7 +97,7 @@ class Run(Sequence[Increment]):
         folder: Optional[pathlib.Path] = None,
         parameters: Mapping[str, float] = MappingProxyType({}),
     ) -> None:
-        """Runs are made by :meth:`Model.run`; parameters: steps of those that it is differentiated by."""
+        """Use :meth:`Model.run` to make a run; parameters: steps of differentiated ones."""
         self._native, self._model, self._folder = run, model, folder
         self._parameters = dict(parameters)
         self._history = History(*run.history())
@@ -116,12 +115,12 @@ class Run(Sequence[Increment]):
 
     @property
     def reason(self) -> str:
-        """How the run ended, in a sentence."""
+        """Ending of the run, in a sentence."""
         return self._native.reason
 
     @property
     def warnings(self) -> list[str]:
-        """What makes the results doubtful."""
+        """Warnings: reasons to doubt the results."""
         return self._native.warnings()
 
     @property
@@ -169,12 +168,12 @@ class Run(Sequence[Increment]):
 
     @property
     def seconds(self) -> float:
-        """Time on the clock (seconds)."""
+        """Wall-clock time (seconds)."""
         return self._native.seconds
 
     @property
     def cut_backs(self) -> int:
-        """Number of increments that failed and were tried again with smaller ones."""
+        """Number of increments that failed and were repeated with smaller ones."""
         return self._native.cut_backs
 
     @overload
@@ -200,10 +199,10 @@ class Run(Sequence[Increment]):
         return self[-1].to_pyvista()
 
     def write(self, folder: Path, *, case: Optional[str] = None, fields_every: int = 1) -> None:
-        """Writes the files of the program (fields for ParaView, history, summary) of a run that
-        was not written on the way; all its increments must be kept.
+        """Writes the files of the program (fields for ParaView, history, summary) of a run that was
+        not recorded; all its increments must be kept.
 
-        folder: where they are written; it must not have other results.
+        folder: folder to write to; it must not contain other results.
         case: name of the case in these files; the title of the model by default.
         fields_every: increments between files of fields; 0: only the last.
         """
@@ -241,9 +240,9 @@ class Run(Sequence[Increment]):
         threads: Optional[int] = None,
         on_stop: Literal["raise", "return"] = "raise",
     ) -> Run:
-        """Goes on from the end of this run, which must be completed, with further steps.
+        """Continues from the end of this run, which must be completed, with further steps.
 
-        Time and the numbers of increments go on; conditions hold until the further steps state
+        Time and the numbers of increments continue; conditions hold until the further steps state
         them again. The history is that of the further steps.
 
         steps: the further steps.
@@ -267,7 +266,7 @@ class Run(Sequence[Increment]):
 def watch(
     on_increment: Optional[Callback], keep: Keep, threads: Optional[int], model: Model
 ) -> tuple[Optional[Callable[[native.Results], object]], int, Optional[int]]:
-    """What is told and kept of a run, for the native part."""
+    """Observation of a run and the states it keeps, for the native part."""
     if on_increment is not None and not callable(on_increment):
         raise TypeError("on_increment: a function that takes an increment is needed")
     every = keeping(keep)
@@ -290,7 +289,7 @@ def keeping(keep: Keep) -> int:
 def record(
     output: Optional[Path], case: Optional[str], fields_every: Optional[int]
 ) -> Optional[tuple[str, Optional[str], Optional[int]]]:
-    """Where a run is written, for the native part."""
+    """Output of a run, for the native part."""
     if fields_every is not None:
         check.whole(fields_every, "fields_every", 0)
     if output is None:
@@ -342,10 +341,11 @@ def resume(
     threads: Optional[int] = None,
     on_stop: Literal["raise", "return"] = "raise",
 ) -> Run:
-    """Goes on with a recorded run of a deck that was interrupted, to the same files bit by bit.
+    """Resumes a recorded run of a deck that was interrupted; the files are identical to those of an
+    uninterrupted run.
 
-    folder: the output of the run.
-    fields_every: as it was when the run began.
+    folder: results folder of the run.
+    fields_every: value with which the run was started.
     on_increment, keep, threads, on_stop: as of :meth:`Model.run`.
     """
     from ._model import Model

@@ -1,4 +1,4 @@
-"""Parts of bodies that are of other materials."""
+"""Parts of bodies with other materials."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ FORMULATIONS = ("standard", "mean-dilatation", "assumed-strain")
 
 
 class Section:
-    """Elements of a body that are of a material of their own."""
+    """Elements of a body with their own material."""
 
     def __init__(
         self,
@@ -28,7 +28,8 @@ class Section:
         elements: name of an element set of the mesh; no element is in two sections.
         material: bulk material.
         density: mass per volume at rest, for inertia and gravity.
-        formulation: of its elements, as of :class:`Body`; by default what suits the material.
+        formulation: of its elements, as of :class:`Body`; by default the one that suits the
+            material.
         """
         self.elements = check.name(elements, "elements")
         """Name of the element set."""

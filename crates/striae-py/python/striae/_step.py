@@ -1,10 +1,10 @@
-"""Steps of the loading history and what they state.
+"""Steps of the loading history and their conditions.
 
-A condition holds from the step that states it until a later step states the same again or
-releases it. It takes its quantity from the present value to the target along a curve:
-``ramp``, ``constant`` (at once), ``smooth``, points (fraction of the step, share of the
-change) from 0 to 1 with straight lines between them, or a function of the fraction, which is
-called at 1001 fractions when the condition is made.
+A condition holds from the step that states it until a later step restates or releases it. Its
+quantity changes from the present value to the target along a curve: ``ramp``, ``constant`` (at
+once), ``smooth``, points (fraction of the step, share of the change) from 0 to 1 with straight
+lines between them, or a function of the fraction, which is called at 1001 fractions when the
+condition is made.
 """
 
 from __future__ import annotations
@@ -20,10 +20,10 @@ from ._made import Made
 
 
 class Condition:
-    """What a step states: made by sets of bodies, rigid bodies, pairs and :func:`gravity`."""
+    """Condition of a step: made by sets of bodies, rigid bodies, pairs and :func:`gravity`."""
 
     def __init__(self, told: str, apply: Callable[[native.Step], None]) -> None:
-        """Conditions are made by the methods of what they are about, such as
+        """Conditions are made by methods of the objects they act on, such as
         ``body["top"].displace(z=-1)``."""
         self._told, self._apply = told, apply
 
@@ -32,7 +32,7 @@ class Condition:
 
 
 def gravity(acceleration: Vector, *, curve: Curve = "ramp") -> Condition:
-    """Gravity on all bodies with a density, until a later step states it again.
+    """Gravity on all bodies with a density, until a later step restates it.
 
     acceleration: target (length per time squared).
     curve: how the target is approached.
@@ -54,8 +54,8 @@ class Increments:
         """Makes the sizes.
 
         initial: first increment (fraction of the step).
-        smallest: increment below which the run is given up; a thousandth of the first by
-            default (fraction of the step).
+        smallest: smallest increment, below which the run ends; a thousandth of the first by default
+            (fraction of the step).
         largest: the first by default (fraction of the step).
         """
         self.initial = check.positive(initial, "initial")
@@ -63,7 +63,7 @@ class Increments:
         self.smallest = (
             1e-3 * self.initial if smallest is None else check.positive(smallest, "smallest")
         )
-        """Increment below which the run is given up (fraction of the step)."""
+        """Smallest increment, below which the run ends (fraction of the step)."""
         self.largest = self.initial if largest is None else check.positive(largest, "largest")
         """Largest increment (fraction of the step)."""
 
@@ -103,9 +103,9 @@ class Step(Made):
         """Makes a step.
 
         name: unique name.
-        conditions: what the step states.
+        conditions: conditions that the step states.
         duration: in (pseudo) time.
-        increments: number of equal increments, cut where needed, or their sizes.
+        increments: number of equal increments, cut if needed, or their sizes.
         dynamics: inertia; without it the step is a sequence of equilibria.
         """
         self.name = check.name(name, "name")

@@ -35,7 +35,7 @@ class Sweep(Sequence[SweepPoint]):
     """Runs of a model over combinations of parameters."""
 
     def __init__(self, points: list[SweepPoint]) -> None:
-        """Sweeps are made by :func:`sweep`."""
+        """Use :func:`sweep` to make a sweep."""
         self._points = points
 
     @overload
@@ -53,7 +53,7 @@ class Sweep(Sequence[SweepPoint]):
         return iter(self._points)
 
     def values(self, measure: Callable[[Run], float]) -> Floats:
-        """A number of each run, of shape (runs,), in the unit of the measure.
+        """A number for each run, of shape (runs,), in the unit of the measure.
 
         measure: a function that takes a run.
         """
@@ -62,7 +62,7 @@ class Sweep(Sequence[SweepPoint]):
     def to_pandas(self, **measures: Callable[[Run], float]) -> DataFrame:
         """Parameters, endings and measures of all runs as a data frame of pandas.
 
-        measures: by the name of their column functions that take a run.
+        measures: functions that take a run, by the name of their column.
         """
         import pandas
 
@@ -92,18 +92,18 @@ def sweep(
 ) -> Sweep:
     """Runs a model for all combinations of parameters.
 
-    Models are made here, one after the other, so functions of notebooks and lambdas will do;
-    with several workers each run has a process of its own. Results do not depend on the number
-    of workers. A run that cannot reach its end is among the results, with its reason; a model
-    that cannot be made or run at all ends the sweep with a :class:`SweepError` that names its
+    Models are made in this process, one after the other, so functions of notebooks and lambdas
+    work; with several workers each run has its own process. Results do not depend on the number of
+    workers. A run that cannot reach its end is among the results, with its reason; a model that
+    cannot be made or run at all ends the sweep with a :class:`SweepError` that names its
     parameters. Ctrl-C ends all processes.
 
-    model_of: a function that makes the model of a combination: ``model_of(mu=0.3)``. If its
-        models call functions of Python during the run (:class:`OwnMaterial`), processes must
-        be able to import it: it stands in a module.
-    parameters: by name the values that each parameter takes.
-    workers: number of runs beside each other; 1: in this process.
-    threads: number of threads of each run; those of the machine shared out by default.
+    model_of: a function that makes the model of a combination: ``model_of(mu=0.3)``. If its models
+        call functions of Python during the run (:class:`OwnMaterial`), processes must be able to
+        import it, so it must be in a module.
+    parameters: values of each parameter, by name.
+    workers: number of simultaneous runs; 1: in this process.
+    threads: number of threads of each run; those of the machine divided among the runs by default.
     keep: increments whose states are kept, see :meth:`Model.run`.
     output: folder in which each run has one with its files, ``1``, ``2``, ...; nothing is
         written by default.
@@ -170,7 +170,7 @@ def _here(
 def _beside(
     model_of: Callable[..., Model], points: list[dict[str, Any]], jobs: list[Any], workers: int
 ) -> list[Run]:
-    """The runs beside each other, in processes."""
+    """The runs in parallel, in processes."""
     with Workers(workers) as processes:
         for point, job in zip(points, jobs):
             processes.begin(point, _model(model_of, point), model_of, job)

@@ -1,7 +1,7 @@
 """Textures: directions along the grooves or along the row of scales of a surface at rest.
 
-They need be neither tangential nor of unit length: the unit vector of their tangential part
-counts. A texture follows its surface as it deforms.
+They need be neither tangential nor of unit length: their tangential part is normalised. A texture
+follows its surface as it deforms.
 """
 
 from __future__ import annotations
@@ -63,7 +63,7 @@ class Uniform(Texture):
         """Makes the texture.
 
         direction: of any length.
-        turn: angle by which it is turned about the outward normal (degrees).
+        turn: angle by which it is rotated about the outward normal (degrees).
         """
         along = _direction(direction, "texture")
         self._native = native.Texture.uniform(along, check.number(turn, "turn"))
@@ -79,7 +79,7 @@ class Circumferential(Texture):
 
         axis: direction of the axis, of any length.
         point: a point of the axis (length).
-        turn: angle by which the lines are turned about the outward normal (degrees).
+        turn: angle by which the lines are rotated about the outward normal (degrees).
         """
         through, along = check.vector(point, "point"), _direction(axis, "axis")
         turned = check.number(turn, "turn")
@@ -96,7 +96,7 @@ class Axial(Texture):
 
         axis: direction of the axis, of any length.
         point: a point of the axis (length).
-        turn: angle by which the lines are turned about the outward normal (degrees).
+        turn: angle by which the lines are rotated about the outward normal (degrees).
         """
         through, along = check.vector(point, "point"), _direction(axis, "axis")
         self._native = native.Texture.axial(through, along, check.number(turn, "turn"))
@@ -112,7 +112,7 @@ class Radial(Texture):
 
         axis: direction of the axis, of any length.
         point: a point of the axis (length).
-        turn: angle by which the lines are turned about the outward normal (degrees).
+        turn: angle by which the lines are rotated about the outward normal (degrees).
         """
         through, along = check.vector(point, "point"), _direction(axis, "axis")
         self._native = native.Texture.radial(through, along, check.number(turn, "turn"))

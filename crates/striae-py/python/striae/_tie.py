@@ -12,9 +12,9 @@ from ._made import Made
 
 
 class Tie(Made):
-    """Two surfaces of bodies that are glued from the start.
+    """Two surfaces of bodies, glued together from the start.
 
-    Which of them is ``a`` does not matter.
+    The order of the two does not matter.
     """
 
     def __init__(
@@ -29,9 +29,9 @@ class Tie(Made):
 
         a, b: facet sets of two bodies.
         name: unique name; made of the names of the bodies by default.
-        within: distance up to which facets that face each other are tied (length); others are
-            free. By default a tenth of the facet size, and facets from there up to half of it
-            apart are a fault.
+        within: distance up to which facets that face each other are tied (length); others are free.
+            By default a tenth of the facet size; facets between that distance and half of the facet
+            size apart are then a fault.
         """
         for side, path in [(a, "a"), (b, "b")]:
             check.kind(side, BodySet, path)

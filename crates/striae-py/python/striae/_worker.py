@@ -1,4 +1,4 @@
-"""What a process does that runs one model of a sweep.
+"""Process that runs one model of a sweep.
 
 .. code-block:: text
 
@@ -7,7 +7,7 @@
            ended.json    how it ended, beside summary.json, history.csv and states
            error.pickle  the exception instead
 
-The keyboard's interrupt is left to the process that asked for the run.
+Keyboard interrupts are handled by the process that started the run.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ ENDED, ERROR = "ended.json", "error.pickle"
 
 
 def main(place: str) -> int:
-    """Runs the model of a folder; 0 where it ran, whatever its ending."""
+    """Runs the model of a folder; returns 0 if it ran, whatever its ending."""
     folder = Path(place)
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     warnings.simplefilter("ignore")
@@ -57,7 +57,7 @@ def ran(folder: Path) -> Run:
 
 
 def pickled(error: Exception) -> bytes:
-    """The exception, or its words where it cannot travel."""
+    """The exception, or its message if it cannot be pickled."""
     try:
         found = pickle.dumps(error)
         pickle.loads(found)

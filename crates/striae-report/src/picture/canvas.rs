@@ -1,7 +1,7 @@
 //! Dots with depths: triangles and lines that hide each other.
 //!
-//! What is nearer to the eye hides what is behind it, dot by dot. Four fine dots make one
-//! of the picture, which smooths edges.
+//! Objects nearer to the eye hide those behind them, dot by dot. Four fine dots make one of the
+//! picture, which smooths edges.
 
 use striae_figure::Dots;
 

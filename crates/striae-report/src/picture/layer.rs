@@ -1,4 +1,4 @@
-//! What is drawn: surfaces with the values of a field, and surfaces that are seen through.
+//! Layers of a picture: surfaces coloured by a field, and transparent surfaces.
 
 use striae_figure::color_map;
 
@@ -23,7 +23,7 @@ pub const GREY: Color = [0.80, 0.81, 0.84];
 /// Values whose spread over their size is below this are equal.
 const EQUAL: f64 = 1e-6;
 
-/// How much of a surface is seen that one sees through.
+/// Opacity of transparent surfaces.
 const VEIL: f64 = 0.32;
 
 /// All surfaces of a picture.
@@ -34,7 +34,7 @@ pub struct Layers<'a> {
     shown: Vec<Layer<'a>>,
     /// Surfaces without the field.
     others: Vec<Layer<'a>>,
-    /// Whether others are seen through.
+    /// `true` if other layers are seen through it.
     veiled: bool,
 }
 
@@ -201,14 +201,14 @@ fn pressed(part: &Part) -> Vec<bool> {
     }
 }
 
-/// How dark edges are: less where they are close to each other.
+/// Darkness of edges: less if they are close to each other.
 pub fn darkness(ends: &[[[f64; 3]; 2]]) -> f64 {
     let lengths = ends.iter().map(|[a, b]| (a[0] - b[0]).hypot(a[1] - b[1]));
     let mean = lengths.sum::<f64>() / ends.len().max(1) as f64;
     (0.5 * (mean - 4.0) / 20.0).clamp(0.0, 0.5)
 }
 
-/// The field that was asked for, or the best there is.
+/// The requested field, or the best one available.
 fn chosen<'a>(parts: &'a [Part], wanted: Option<&str>) -> Result<&'a str, ReportError> {
     let names = names(parts);
     let find = |name: &str| names.iter().copied().find(|known| *known == name);
@@ -316,7 +316,7 @@ fn points(field: &Field) -> Vec<Vec<f64>> {
         .collect()
 }
 
-/// Where the nodes of a part are.
+/// Positions of the nodes of a part.
 fn places(part: &Part, parts: &[Part], magnification: f64) -> Vec<[f64; 3]> {
     if let Some((body, nodes)) = &part.follows {
         let body = places(&parts[*body], &[], magnification);

@@ -33,7 +33,7 @@ pub const WIDTH: usize = 900;
 /// Size of words over the width of a picture.
 const WORDS: f64 = 0.016;
 
-/// What a picture shows.
+/// Content of a picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
     /// The field; by default the contact pressure, or else the stress of the bodies.
@@ -44,7 +44,7 @@ pub struct Picture {
     pub time: Option<f64>,
     /// From the place of the eye to what is seen; the third axis points upwards.
     pub direction: [f64; 3],
-    /// How much displacements are magnified.
+    /// Magnification of displacements.
     pub magnification: f64,
     /// Bodies and surfaces that are left out.
     pub hidden: Vec<String>,

@@ -15,7 +15,7 @@ use crate::{
 };
 
 /// Colours of names, which begin again when they are used up: those of Okabe and Ito, which
-/// people who see few colours tell apart (<https://jfly.uni-koeln.de/color/>), then lighter ones.
+/// colour-blind people can distinguish (<https://jfly.uni-koeln.de/color/>), then lighter ones.
 const COLORS: [Color; 12] = [
     [0.00, 0.45, 0.70],
     [0.90, 0.62, 0.00],

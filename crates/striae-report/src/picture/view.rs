@@ -1,4 +1,4 @@
-//! Where points of space are seen: an orthographic view that holds all that is shown.
+//! Projection of points: an orthographic view that contains everything shown.
 //!
 //! With the direction `d` of sight, `e_1 ~ d x e_z` points to the right and `e_2 = e_1 x d`
 //! upwards; along the third axis `e_1` is the first one. A point is seen at
@@ -68,7 +68,7 @@ impl View {
         self.size
     }
 
-    /// Where a point is seen: column and row in fine dots, and its depth in the same unit.
+    /// Projection of a point: column and row in fine dots, and its depth in the same unit.
     pub fn seen(&self, x: [f64; 3]) -> [f64; 3] {
         let fine = OVERSAMPLING as f64;
         let center = [
@@ -83,7 +83,7 @@ impl View {
         ]
     }
 
-    /// How bright a face with this normal is, for light from above the left shoulder.
+    /// Brightness of a face with this normal, for light from above the left shoulder.
     pub fn brightness(&self, normal: [f64; 3]) -> f64 {
         let [right, up, away] = self.axes.map(|axis| dot(normal, axis));
         let light = (-0.35 * right + 0.6 * up - 0.72 * away).abs();

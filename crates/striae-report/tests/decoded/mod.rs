@@ -91,7 +91,7 @@ impl Page {
     }
 }
 
-/// What a part says of a field.
+/// Description of a field in a part.
 pub fn field<'a>(part: &'a Value, name: &str) -> &'a Value {
     let fields = part["fields"].as_array().unwrap();
     fields.iter().find(|field| field["name"] == name).unwrap()

@@ -1,15 +1,15 @@
-//! What fails on one rank fails on all.
+//! Agreement of ranks on failures: what fails on one rank fails on all.
 //!
-//! Elements and loads are evaluated by one rank each, so that one may fail where others do not.
-//! All learn of the first element that does, by body and number in the whole mesh, as a rank that
-//! is alone would come upon it; then of the first load, by rank.
+//! Elements and loads are evaluated by one rank each, so one rank may fail where others do not. All
+//! ranks learn of the first element that fails, by body and number in the whole mesh, as a single
+//! rank would encounter it; then of the first load, by rank.
 
 use striae_element::{ElementError, ElementFault};
 use striae_mesh::{ElementId, NodeId};
 
 use crate::{load::LoadError, outcome::CutBack, problem::Problem};
 
-/// What a phase came to, or the first reason for which it failed on any rank; collective.
+/// Result of a phase, or the first reason for which it failed on any rank; collective.
 pub(super) fn agreed<T>(problem: &Problem, found: Result<T, CutBack>) -> Result<T, CutBack> {
     let share = &problem.share;
     if share.is_alone() || !share.any(found.is_err()) {
@@ -26,7 +26,7 @@ pub(super) fn agreed<T>(problem: &Problem, found: Result<T, CutBack>) -> Result<
         .expect("what is not told has failed on all ranks"))
 }
 
-/// Where a fault is met: contact is looked at first, then elements, then loads.
+/// Order in which faults are met: contact first, then elements, then loads.
 fn place(problem: &Problem, fault: &CutBack) -> (usize, usize, usize) {
     match fault {
         CutBack::InvertedElement { body, element } => {
@@ -135,7 +135,7 @@ fn text(bytes: &mut Vec<u8>, text: &str) {
     bytes.extend(text.as_bytes());
 }
 
-/// What is left of a list of bytes.
+/// Bytes of a list that are not read yet.
 struct Words<'a>(&'a [u8]);
 
 impl<'a> Words<'a> {

@@ -1,8 +1,8 @@
 //! All terms of a pair in the system.
 //!
-//! Where nothing is tied and no body that moves answers contact, a term is a dense block
-//! whose rows and columns are unknowns as they are. Of all other terms blocks are made one
-//! by one, with ties eliminated. What contact has in the tangent is the sum of all blocks.
+//! If nothing is tied and no moving body reacts to contact, a term is a dense block whose rows and
+//! columns are unknowns of the system. All other terms are made into blocks one by one, with ties
+//! eliminated. The contribution of contact to the tangent is the sum of all blocks.
 
 use rayon::prelude::*;
 use striae_condensed::{Growth, Partition};
@@ -17,7 +17,7 @@ use crate::{layout::united, node::GlobalNode, share::shared_out};
 const TERMS: usize = 16;
 
 impl System<'_> {
-    /// Adds the terms of a pair; those that are blocks as they are to the residual only.
+    /// Adds the terms of a pair; those that already are blocks to the residual only.
     pub(super) fn add_terms(&mut self, pair: usize, terms: &[LocalTerm]) {
         if !self.is_plain(pair) {
             for term in terms {
@@ -57,7 +57,7 @@ impl System<'_> {
         growth
     }
 
-    /// What contact couples.
+    /// Couplings of contact.
     pub(super) fn all_blocks<'t>(&mut self, contacts: &'t [Evaluation]) -> Vec<PlacedBlock<'t>> {
         let mut blocks: Vec<PlacedBlock> = std::mem::take(&mut self.blocks);
         for (pair, evaluation) in contacts.iter().enumerate() {
@@ -69,7 +69,7 @@ impl System<'_> {
         blocks
     }
 
-    /// Whether the unknowns of a pair's terms are unknowns of the system as they are.
+    /// Returns whether the unknowns of a pair's terms are unknowns of the system.
     fn is_plain(&self, pair: usize) -> bool {
         let rigid = self.context.problem.pairs[pair].rigid;
         let moves = rigid.is_some_and(|rigid| self.moving[rigid].is_some());
@@ -119,7 +119,7 @@ impl System<'_> {
         }
     }
 
-    /// Whether this rank adds a row of contact to the tangent.
+    /// Returns whether this rank adds a row of contact to the tangent.
     fn adds(&self, pair: usize, row: u32) -> bool {
         match self.added.get(pair) {
             Some(Some(added)) => {
@@ -130,7 +130,7 @@ impl System<'_> {
         }
     }
 
-    /// Where a term belongs, leaving out prescribed rows and those that other ranks add.
+    /// Places of a term, without prescribed rows and those that other ranks add.
     fn placed<'t>(&self, pair: usize, term: &'t LocalTerm) -> PlacedBlock<'t> {
         let is_free = |&(_, row): &(usize, &u32)| {
             let axis = *row as usize % 3;

@@ -1,4 +1,4 @@
-//! What does not change within a step, and what is imposed in it.
+//! Data that stay constant within a step, and values imposed in it.
 
 mod dashpots;
 
@@ -24,34 +24,34 @@ use crate::{
 };
 use dashpots::{coefficient, dashpots};
 
-/// What does not change within a step.
+/// Data that stay constant within a step.
 #[derive(Clone, Debug)]
 pub struct StepContext<'a> {
     /// The problem.
     pub problem: &'a Problem,
     /// Number of the step.
     pub index: usize,
-    /// What holds in it.
+    /// Conditions in force.
     pub plan: &'a StepPlan,
     /// State at its start.
     pub start: &'a State,
     /// Pairs with the distances in which the step looks for contact.
     pub pairs: Vec<ContactPair>,
-    /// Whether each position component of each global node is prescribed.
+    /// `true` for prescribed position components, of each global node.
     pub fixed: Vec<bool>,
-    /// Whether each coordinate of each rigid body is prescribed.
+    /// `true` for prescribed coordinates, of each rigid body.
     pub fixed_rigid: Vec<[bool; 6]>,
     /// `fixed` by pair, side and surface node, with nodes that follow only such nodes, or nodes
     /// that touch the same opponent.
     pub fixed_on_pair: Vec<Prescribed>,
-    /// What is added to the gaps of every pair: overlaps of the meshes that are pressed out in the
-    /// step, interferences.
+    /// Offsets of the gaps of every pair: overlaps of the meshes that are removed in the step, and
+    /// interferences.
     pub offsets: Vec<Offsets>,
     /// Coefficient of stabilisation of every pair, see [`crate::stabilisation`].
     pub stabilisation: Vec<f64>,
 }
 
-/// What is imposed at the end of an increment.
+/// Values imposed at the end of an increment.
 #[derive(Clone, Debug)]
 pub struct Imposed {
     /// Prescribed position components: `(node, axis, position)`.
@@ -74,7 +74,7 @@ pub struct Imposed {
     pub elapsed: f64,
     /// Inertia, if the step has it.
     pub motion: Option<Motion>,
-    /// What stabilises every pair in the increment.
+    /// Dashpots that stabilise every pair in the increment.
     pub dashpots: Vec<Vec<Dashpot>>,
 }
 
@@ -149,7 +149,7 @@ impl<'a> StepContext<'a> {
         context
     }
 
-    /// The same with contact looked for over `search` of every pair at least.
+    /// Copy of the context in which every pair searches for contact within at least `search`.
     pub fn looking(&self, search: &[f64]) -> Self {
         let mut context = self.clone();
         for (pair, search) in context.pairs.iter_mut().zip(search) {
@@ -173,7 +173,7 @@ impl<'a> StepContext<'a> {
         self.offsets[pair].fitted(stated.at(self.index, s))
     }
 
-    /// What is imposed at the fraction `s` of the step, at `time`, after `state`.
+    /// Values imposed at the fraction `s` of the step, at `time`, after `state`.
     pub fn imposed_after(&self, state: &State, s: f64, time: f64) -> Imposed {
         let elapsed = time - state.time;
         Imposed {
@@ -185,7 +185,7 @@ impl<'a> StepContext<'a> {
         }
     }
 
-    /// What is imposed at the fraction `s` of the step, whatever was before.
+    /// Values imposed at the fraction `s` of the step, independent of the previous state.
     pub fn imposed(&self, s: f64) -> Imposed {
         use crate::plan::Prescription::{Go, Hold};
         let duration = self.problem.model.steps[self.index].duration;

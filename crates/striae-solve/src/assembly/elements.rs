@@ -23,14 +23,14 @@ use crate::{
     state::State,
 };
 
-/// What elements add up to at a supervariable.
+/// Sums of the contributions of elements at a supervariable.
 #[derive(Clone, Copy, Default)]
 struct AtNode {
     residual: Vec3,
     internal: Vec3,
     weight: Vec3,
     inertia: Vec3,
-    /// Whether the rows of the matrix are still those of another state.
+    /// `true` if the rows of the matrix are still those of another state.
     is_stale: bool,
 }
 
@@ -41,19 +41,19 @@ struct Sums {
     square_of_forces: f64,
 }
 
-/// What bodies store, lose and come to.
+/// Energies, losses and internal variables of the bodies.
 #[derive(Clone, Debug, Default)]
 pub struct OfBodies {
     /// Stored energy.
     pub strain: f64,
     /// Energy that has been dissipated since the last converged state.
     pub dissipated: f64,
-    /// What their quadrature points have come to, as in [`State::histories`].
+    /// New internal variables of their quadrature points, as in [`State::histories`].
     pub histories: Vec<Vec<f64>>,
 }
 
 impl System<'_> {
-    /// Internal forces and stiffness, in the place of what there was.
+    /// Internal forces and stiffness, replacing the previous ones.
     pub(super) fn elements(
         &mut self,
         places: &ElementPlaces,
@@ -177,7 +177,7 @@ impl System<'_> {
         Ok(())
     }
 
-    /// Whether an element of a block has a place and no tied nodes.
+    /// Returns whether an element of a block has a place and no tied nodes.
     fn is_plain_element(&self, place: &Place, at: usize) -> bool {
         let problem = self.context.problem;
         let element = ElementId::new(place.first + at);
@@ -257,7 +257,7 @@ impl System<'_> {
         self.add_square(nodes, unknowns, tangent);
     }
 
-    /// The same without a force.
+    /// Adds a tangent without a force.
     fn add_square(&mut self, nodes: &[GlobalNode], unknowns: &[usize], tangent: &[f64]) {
         let is_fixed = |node: &GlobalNode| self.context.fixed[node.components()].contains(&true);
         let is_plain = |node: &GlobalNode| !self.is_bound(*node) && !is_fixed(node);
@@ -292,7 +292,7 @@ struct Place<'a> {
     actuations: &'a Actuations,
 }
 
-/// What some elements of a block add, written over older ones.
+/// Contributions of some elements of a block, which overwrite older ones.
 fn shares_of(
     context: &StepContext,
     inertia: &Inertia,

@@ -15,7 +15,7 @@ use striae_mesh::{MAX_CORNERS, Vec3};
 use super::{Imposed, System, Trial};
 use crate::{node::GlobalNode, tie::Ties};
 
-/// What elements need of the increment.
+/// Data of the increment that elements need.
 pub(super) struct Inertia {
     /// `1 - a_f`.
     pub(super) share_of_end: f64,
@@ -42,12 +42,12 @@ impl Inertia {
     }
 }
 
-/// What an element adds to the system.
+/// Contribution of an element to the system.
 #[derive(Clone)]
 pub(super) struct Share {
     /// Response, weighed, with inertia and weight.
     pub(super) response: ElementResponse,
-    /// Internal force on each corner, as it is.
+    /// Internal force on each corner, without inertia.
     pub(super) internal: [Vec3; MAX_CORNERS],
     /// Weight of each corner.
     pub(super) weight: [Vec3; MAX_CORNERS],
@@ -103,7 +103,7 @@ impl Inertia {
         own.square_of_forces = forces.map(|f| f * f).sum();
     }
 
-    /// Whether there is gravity or inertia.
+    /// Returns whether there is gravity or inertia.
     pub(super) fn acts(&self) -> bool {
         self.accelerations.is_some() || self.gravity != Vec3::zeros()
     }

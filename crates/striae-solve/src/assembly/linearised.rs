@@ -42,15 +42,14 @@ pub struct ContactAssembled {
     pub contacts: Vec<Evaluation>,
 }
 
-/// Evaluates contact at a trial state `change` away from where the background was
-/// linearised, and puts it in the place of what contact there was in the tangent, whose
-/// part of the bodies is that of the background.
+/// Evaluates contact at a trial state `change` away from the state of linearisation, and replaces
+/// the contact in the tangent, whose part of the bodies is that of the background.
 ///
 /// No rigid body may have coordinates among the unknowns. `None` where the partition would have
 /// to grow.
 ///
 /// # Errors
-/// Why contact cannot be evaluated.
+/// Returns why contact cannot be evaluated.
 pub fn assemble_contact(
     setting: &Setting,
     background: &Background,
@@ -96,7 +95,7 @@ pub fn assemble_contact(
 }
 
 impl System<'_> {
-    /// What there is before contact is added.
+    /// System before contact is added.
     pub(super) fn background(&self) -> Background {
         Background {
             blocks: self.blocks.clone(),

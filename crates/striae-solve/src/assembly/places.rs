@@ -1,4 +1,4 @@
-//! Where the stiffness of every element belongs in the matrix, found once for a pattern.
+//! Places of the stiffness of every element in the matrix, found once for a pattern.
 
 use striae_sparse::{CliquePlaces, Structure};
 
@@ -7,9 +7,9 @@ use crate::{layout::Layout, model::Body, problem::Problem};
 /// Elements that are evaluated and added at a time: few enough for the cache.
 const BATCH: usize = 128;
 
-/// Where the stiffness of every element belongs in the matrices of a structure.
+/// Places of the stiffness of every element in the matrices of a structure.
 ///
-/// Elements with tied nodes have no place of their own there: what they add goes to the
+/// Elements with tied nodes have no place of their own there: their contributions go to the
 /// coordinates of rigid bodies, too.
 #[derive(Clone, Debug)]
 pub struct ElementPlaces {
@@ -18,7 +18,7 @@ pub struct ElementPlaces {
 }
 
 impl ElementPlaces {
-    /// Where the elements of a problem belong.
+    /// Places of the elements of a problem.
     pub fn new(problem: &Problem, layout: &Layout, structure: &Structure) -> Self {
         let bodies = problem.model.bodies.iter().enumerate();
         let of_body = |(body, model): (usize, &Body)| {
@@ -36,13 +36,13 @@ impl ElementPlaces {
         }
     }
 
-    /// Finds the places anew in a pattern that has grown.
+    /// Finds the places again in a pattern that has grown.
     pub fn find(&mut self, structure: &Structure) {
         let blocks = self.blocks.iter_mut().flatten();
         blocks.for_each(|places| places.find(structure));
     }
 
-    /// Those of a block of a body.
+    /// Places of a block of a body.
     pub(super) fn of_block(&self, body: usize, block: usize) -> &CliquePlaces {
         &self.blocks[body][block]
     }

@@ -19,7 +19,7 @@ pub(super) struct Slot {
 }
 
 impl Slot {
-    /// What is no position.
+    /// Slot of an unknown that is not a position.
     pub(super) fn plain(unknown: usize) -> Self {
         Self {
             unknown,
@@ -29,7 +29,7 @@ impl Slot {
     }
 }
 
-/// Lists that are made anew for every block, rows first.
+/// Lists that are rebuilt for every block, rows first.
 #[derive(Default)]
 pub(super) struct Scratch {
     /// Of a contact term.
@@ -40,15 +40,15 @@ pub(super) struct Scratch {
 /// A part of the tangent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Part {
-    /// What elements and ties couple.
+    /// Couplings of elements and ties.
     Bodies,
-    /// What contact couples; all ranks know it.
+    /// Couplings of contact; all ranks know them.
     Contact,
-    /// What loads on faces that contact covers in part couple, in the part of contact.
+    /// Couplings of loads on faces that contact covers partly, stored with those of contact.
     Loads,
 }
 
-/// What slots become: equations or unknowns, and their weights by slot.
+/// Expansion of slots: equations or unknowns, and their weights by slot.
 struct Spread {
     targets: Vec<usize>,
     weights: Vec<Vec<(usize, f64)>>,
@@ -61,7 +61,7 @@ enum Kind {
 }
 
 impl System<'_> {
-    /// How the point of the body on the other side of a position follows that body.
+    /// Tie of the point of the body on the other side of a position to that body.
     pub(super) fn against(&self, slot: &Slot) -> Option<Tie> {
         let (node, _) = slot.position?;
         let body = self.moving[slot.against?].as_ref()?;
@@ -156,7 +156,7 @@ impl System<'_> {
         Spread { targets, weights }
     }
 
-    /// What a slot stands for, with weights.
+    /// Equations or unknowns that a slot stands for, with weights.
     fn followed(&self, slot: &Slot, kind: Kind) -> Vec<(usize, f64)> {
         let Some((node, axis)) = slot.position else {
             return vec![(slot.unknown, 1.0)];
@@ -176,7 +176,7 @@ impl System<'_> {
         entries
     }
 
-    /// What a position that follows no other node stands for, times a weight.
+    /// Unknowns that a position without dependence on other nodes stands for, times a weight.
     fn of_position(
         &self,
         (node, axis): (GlobalNode, usize),

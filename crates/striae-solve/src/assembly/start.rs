@@ -19,7 +19,7 @@ use crate::{
 /// `found` forces without inertia. `solve` solves the linear system for a correction.
 ///
 /// # Errors
-/// What `solve` says.
+/// Returns the errors of `solve`.
 #[allow(clippy::too_many_arguments)]
 pub(crate) fn initial_accelerations(
     context: &StepContext,
@@ -70,8 +70,8 @@ pub(crate) fn initial_accelerations(
     Ok((accelerations, holding.collect()))
 }
 
-/// What is known of the accelerations: prescribed components, and what bodies
-/// that turn and are driven impose on tied nodes.
+/// Known accelerations: prescribed components, and those that rotating or driven rigid bodies
+/// impose on tied nodes.
 fn known(
     context: &StepContext,
     trial: &Trial,

@@ -1,10 +1,10 @@
 //! Contact terms in the system, and what they do to rigid bodies.
 //!
-//! The force `f` on a node at `x` pushes the rigid body on the other side of the pair,
-//! whose reference point is at `c`, back with `-f` and `-(x - c) x f`. A term knows no
-//! coordinates of the body: what it states holds relative to the body. If the body
-//! and the nodes of the term were moved alike by `du` and turned by `dphi`, gaps, slip
-//! and traction components would stay and forces turn along, so that
+//! The force `f` on a node at `x` pushes the rigid body on the other side of the pair, whose
+//! reference point is at `c`, back with `-f` and `-(x - c) x f`. A term has no coordinates of the
+//! body: its equations hold relative to the body. If the body and the nodes of the term were moved
+//! alike by `du` and turned by `dphi`, gaps, slip and traction components would stay and forces
+//! turn along, so that
 //!
 //! ```text
 //! dr = dr/dx (dx - du - dphi x (x - c))                      of gaps, slip, tractions
@@ -31,7 +31,7 @@ use super::{
 };
 use crate::node::GlobalNode;
 
-/// What answers the forces of a term.
+/// Reaction to the forces of a term.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Answer {
     /// The other side of the pair.
@@ -52,7 +52,7 @@ impl Answer {
     }
 }
 
-/// Where a triple of unknowns of a pair is in the system.
+/// Places of a triple of unknowns of a pair in the system.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Triple {
     /// The first of its unknowns.
@@ -61,7 +61,7 @@ pub(super) struct Triple {
     pub(super) place: (Side, SurfaceNode),
     /// The node whose position it is.
     pub(super) position: Option<GlobalNode>,
-    /// Whether that node follows others.
+    /// `true` if that node depends on others.
     pub(super) follows: bool,
     /// The rigid body that moves on the other side.
     against: Option<usize>,
@@ -167,7 +167,7 @@ impl System<'_> {
         self.scatter(part, &rows, columns, &block);
     }
 
-    /// Whether a row is prescribed and answered by no moving body.
+    /// Returns whether a row is prescribed and no moving body reacts to it.
     fn is_left_out(&self, slot: &Slot) -> bool {
         let fixed = |(node, axis): (GlobalNode, usize)| self.context.fixed[node.component(axis)];
         slot.against.is_none() && slot.position.is_some_and(fixed)

@@ -13,9 +13,9 @@
 //! sum (f - a_f h_0) = (1 - a_f) F_1,    sum r x (f - a_f h_0) = (1 - a_f) M_1
 //! ```
 //!
-//! with the force `F` and the torque `M` that drive or hold the body. Turning the
-//! arms gives the tangent `d(r x h) = (dphi x r) x h`. What contact asks for, see
-//! `pushed`, joins `F` and `M`, fully at the end.
+//! with the force `F` and the torque `M` that drive or hold the body. Turning the arms gives the
+//! tangent `d(r x h) = (dphi x r) x h`. The force of contact, see `pushed`, is added to `F` and
+//! `M`, fully at the end.
 
 use nalgebra::Matrix3;
 use striae_contact::segment::Derivatives;
@@ -29,7 +29,7 @@ use crate::{
     rigid::{Wrench, turn_tangent},
 };
 
-/// How a tied node follows its body.
+/// Dependence of a tied node on its body.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tie {
     pub(super) rigid: usize,
@@ -43,13 +43,13 @@ pub(super) struct Tie {
 pub(super) struct Moving {
     rigid: usize,
     first: usize,
-    /// Where the reference point is.
+    /// Position of the reference point.
     point: Vec3,
     tangent: Matrix3<f64>,
 }
 
 impl Moving {
-    /// How a point at `x` follows the body.
+    /// Tie of a point at `x` to the body.
     pub(super) fn tie(&self, x: &Vec3) -> Tie {
         Tie {
             rigid: self.rigid,
@@ -98,7 +98,7 @@ impl System<'_> {
         self.ties.get(node.0).and_then(Option::as_ref)
     }
 
-    /// Whether the position of a node is no unknown of its own.
+    /// Returns whether the position of a node is not an unknown of its own.
     pub(super) fn is_bound(&self, node: GlobalNode) -> bool {
         self.tie(node).is_some() || self.context.problem.ties.follower(node).is_some()
     }

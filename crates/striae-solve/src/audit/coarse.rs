@@ -1,9 +1,9 @@
 //! Contact that is narrower than facets resolve.
 //!
-//! Where smooth surfaces touch, the zone of contact is as wide as loads and curvature make it, and
-//! facets that are not much smaller than that know neither its size nor its pressure. The width `w`
-//! is that of a rectangle with the same smaller moment of inertia as the pressed nodes `x_I` of the
-//! finer side, with the areas `A_I` that belong to them,
+//! The width of the contact zone of smooth surfaces follows from loads and curvature, and facets
+//! that are not much smaller resolve neither its size nor its pressure. The width `w` is that of a
+//! rectangle with the same smaller moment of inertia as the pressed nodes `x_I` of the finer side,
+//! with the areas `A_I` that belong to them,
 //!
 //! ```text
 //! w = sqrt(12 l),   l = middle eigenvalue of  sum A_I (x_I - x)(x_I - x)^T / sum A_I + mean A_I / 12

@@ -5,8 +5,8 @@
 //! `tau . du <= 0`. The slip is the one that is seen, without what the ramp adds to the rows, by
 //! which a weak node could stick while all around it slides.
 //!
-//! Only nodes that are pressed at both ends are looked at: the way of others may lie before they
-//! touch. A node that sticks moves by what the meshes cannot follow of each other. It counts as slipping
+//! Only nodes that are pressed at both ends are checked: others may have moved before they touch. A
+//! node that sticks moves by what the meshes cannot follow of each other. It counts as slipping
 //! from [`LEAST_WAY`] of the facet size on; then the forces that friction needs to be wrong for are
 //! no round-off.
 
@@ -37,7 +37,7 @@ pub struct Gain {
     pub node: NodeId,
     /// Work that it gains in the increment.
     pub work: f64,
-    /// The same over the magnitudes of the work at all nodes of its side.
+    /// Ratio of this work to the sum of its magnitudes at all nodes of the side.
     pub share: f64,
 }
 

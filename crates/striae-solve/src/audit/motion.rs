@@ -1,9 +1,9 @@
 //! Bodies that jump.
 //!
-//! Where friction or an edge cannot hold a body any more, rows of contact may have a solution far
-//! from where it was. Without inertia the middle of a body moves with its loads, or against them as
-//! far as something that is prescribed drives it, or strain that is released. It jumps where it
-//! moves further than all that is prescribed and than half a facet, the loads lose work by that, and
+//! If friction or an edge cannot hold a body any more, rows of contact may have a solution far from
+//! where it was. Without inertia the middle of a body moves with its loads, or against them as far
+//! as something that is prescribed drives it, or strain that is released. It jumps where it moves
+//! further than all that is prescribed and than half a facet, the loads lose work by that, and
 //! contact, which has none, pays for it: the energy of contact falls by half of that work or more.
 
 use striae_mesh::Vec3;
@@ -15,8 +15,8 @@ use crate::{assembly::StepContext, model::Procedure, state::State};
 /// motion is a jump.
 const LEAST: f64 = 0.5;
 
-/// Way over the longest one that is prescribed from which on a body goes by itself: strain that is
-/// released may add to what drives it.
+/// Ratio of the motion to the longest prescribed one from which on a body jumps: released strain
+/// may add to the drive.
 const FURTHER: f64 = 1.5;
 
 /// The body that jumps furthest in an increment, if one does; collective.

@@ -9,7 +9,7 @@ use striae_surface::node::SurfaceNode;
 use super::{InitialFault, Reference};
 use crate::model::{ClosedGaps, Initial, Model, PairId};
 
-/// The model with the gaps closed of all pairs that ask for it, one pair after another.
+/// The model with closed gaps for all pairs that request it, one pair after another.
 ///
 /// # Errors
 /// When an element would be turned inside out.

@@ -32,7 +32,7 @@ pub struct Turned {
     pub side: Side,
     /// Node of the mesh.
     pub node: NodeId,
-    /// Where it is.
+    /// Position of the node.
     pub at: Vec3,
 }
 

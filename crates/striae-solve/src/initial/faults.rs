@@ -19,7 +19,7 @@ pub enum InitialFault {
         node: NodeId,
         /// Name of the one that it is inside of.
         other: String,
-        /// Where it is.
+        /// Position of the place.
         at: Vec3,
         /// Depth.
         depth: f64,
@@ -30,7 +30,7 @@ pub enum InitialFault {
     },
     /// Bodies overlap by so much that their other side is nearer.
     #[error(
-        "pair `{pair}`: `{body}` is {depth:.3e} inside `{other}` at ({:.6}, {:.6}, {:.6}), next to its {node}, which is {:.0} % of the thickness of `{other}` there, {thickness:.3e}, and {:.0} % of the local facet size {size:.3e}. Overlaps are pressed out up to half the thickness; beyond, the other side of `{other}` is nearer. Move the bodies apart in the mesh, or bring them together in a step",
+        "pair `{pair}`: `{body}` is {depth:.3e} inside `{other}` at ({:.6}, {:.6}, {:.6}), next to its {node}, which is {:.0} % of the thickness of `{other}` there, {thickness:.3e}, and {:.0} % of the local facet size {size:.3e}. Overlaps can be resolved up to half the thickness; beyond that, the other side of `{other}` is nearer. Separate the bodies in the mesh, or bring them together in a step",
         at.x, at.y, at.z, 100.0 * depth / thickness, 100.0 * depth / size
     )]
     Deep {
@@ -42,7 +42,7 @@ pub enum InitialFault {
         node: NodeId,
         /// Name of the one that it is inside of.
         other: String,
-        /// Where it is.
+        /// Position of the place.
         at: Vec3,
         /// Depth.
         depth: f64,
@@ -53,7 +53,7 @@ pub enum InitialFault {
     },
     /// No faces are near enough to be taken as touching.
     #[error(
-        "pair `{pair}`: `interference` is measured from faces that touch, but none of the two sides face each other within the search distance of the pair, half a facet unless it is stated; the smallest gap is {gap:.3e}. Set `search_distance` to more than the gap between the faces that fit, or move them together in the mesh"
+        "pair `{pair}`: `interference` is measured from touching faces, but the two sides do not face each other within the search distance of the pair (by default half a facet); the smallest gap is {gap:.3e}. Set `search_distance` above the gap between the fitting faces, or close the gap in the mesh"
     )]
     Unseated {
         /// Name of the pair.
@@ -63,7 +63,7 @@ pub enum InitialFault {
     },
     /// A body is on the wrong side of a rigid surface.
     #[error(
-        "pair `{pair}`: body `{body}` is wholly behind `{rigid}`, whose normal points away from it; turn the normal of `{rigid}` round"
+        "pair `{pair}`: body `{body}` is entirely behind `{rigid}`, whose normal points away from it; reverse the normal of `{rigid}`"
     )]
     Behind {
         /// Name of the pair.
@@ -75,7 +75,7 @@ pub enum InitialFault {
     },
     /// The sides look away from each other, as where facets are turned inside out.
     #[error(
-        "pair `{pair}`: the surface of `{body}` looks away from that of `{other}`, so they cannot touch: at {node} of `{body}`, ({:.6}, {:.6}, {:.6}), both normals point the same way. {}",
+        "pair `{pair}`: the surface of `{body}` faces away from that of `{other}`, so they cannot touch: at {node} of `{body}`, ({:.6}, {:.6}, {:.6}), both normals have the same direction. {}",
         at.x, at.y, at.z, turning(rigid)
     )]
     Away {
@@ -87,14 +87,14 @@ pub enum InitialFault {
         other: String,
         /// The node.
         node: NodeId,
-        /// Where it is.
+        /// Position of the place.
         at: Vec3,
         /// Rigid surface that is a side, if one is.
         rigid: Option<String>,
     },
     /// Facets of one side are far smaller than those of the other.
     #[error(
-        "pair `{pair}`: {count} facets of `{body}` lie opposite one facet of `{other}`, at ({:.6}, {:.6}, {:.6}), too many for their contact to be computed. Refine `{other}` there, coarsen `{body}`, or make `{other}` a rigid surface if it hardly deforms",
+        "pair `{pair}`: {count} facets of `{body}` lie opposite one facet of `{other}`, at ({:.6}, {:.6}, {:.6}), too many to compute their contact. Refine `{other}` there, coarsen `{body}`, or make `{other}` a rigid surface if it hardly deforms",
         at.x, at.y, at.z
     )]
     Crowded {
@@ -106,12 +106,12 @@ pub enum InitialFault {
         other: String,
         /// Number of facets that lie opposite.
         count: usize,
-        /// Where the large one is.
+        /// Position of the large facet.
         at: Vec3,
     },
     /// Moving nodes would turn an element inside out.
     #[error(
-        "pair `{pair}`: `initial = \"close\"` would turn {element} of body `{body}` inside out. Set `initial = \"resolve\"` to press overlaps out in the first step instead, close only gaps that are small beside the elements, such as `initial = {{ close = 0 }}` for none, or mend the mesh"
+        "pair `{pair}`: `initial = \"close\"` would turn {element} of body `{body}` inside out. Set `initial = \"resolve\"` to remove overlaps gradually during the first step, close only gaps that are small compared with the elements (`initial = {{ close = 0 }}` closes none), or repair the mesh"
     )]
     Inverted {
         /// Name of the pair.
@@ -126,9 +126,9 @@ pub enum InitialFault {
 /// Tells if nodes of a pair have been moved to close its gaps and overlaps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Closing {
-    /// They have not.
+    /// Gaps have not been closed.
     Open,
-    /// They have.
+    /// Gaps have been closed.
     Made,
 }
 
@@ -137,10 +137,10 @@ impl Closing {
     fn remedy(self) -> &'static str {
         match self {
             Self::Made => {
-                "It is left after `initial = \"close\"` has moved the nodes of the smaller or finer side: between these nodes the other side reaches deeper. Set `initial = \"resolve\"` to press it out in the first step, refine the side that was moved, or mend the mesh"
+                "The overlap remains after `initial = \"close\"` has moved the nodes of the smaller or finer side, as the other side reaches deeper between them. Set `initial = \"resolve\"` to remove it gradually during the first step, refine the side that was moved, or repair the mesh"
             }
             Self::Open => {
-                "Mend the mesh, or set `initial = \"close\"` to move nodes or `initial = \"resolve\"` to press the overlap out in the first step"
+                "Repair the mesh, set `initial = \"close\"` to move nodes, or set `initial = \"resolve\"` to remove the overlap gradually during the first step"
             }
         }
     }
@@ -165,7 +165,7 @@ impl InitialFault {
 fn turning(rigid: &Option<String>) -> String {
     match rigid {
         Some(rigid) => format!(
-            "Turn the facets of `{rigid}` round (list their corners counter-clockwise as seen from where the body is), or name the facets of the body that face it"
+            "Reverse the facets of `{rigid}` (list their corners counter-clockwise as seen from the body), or name the facets of the body that face it"
         ),
         None => "Name the facets that face each other".to_owned(),
     }

@@ -1,6 +1,6 @@
 //! Overlaps that are pressed out in the course of the first step.
 //!
-//! Contact adds to the gap at a point, before it asks for `g >= 0`,
+//! Contact adds to the gap at a point, before it enforces `g >= 0`,
 //!
 //! ```text
 //! left(step, s) o(x),   o = 1/2 (sum N_I^A o_I^A + sum N_J^B o_J^B),   left = 1 - s in the first step
@@ -13,9 +13,9 @@
 //! An interference is added to the gap as long as the run lasts, see
 //! [`striae_contact::seating`].
 //!
-//! Facets are paired up to a distance only, so in the first step contact is looked for as
-//! deep as the deepest overlap at least. An overlap of more than half the thickness of the body
-//! is refused: its other side is nearer, so that it would be pressed out there as well.
+//! Facets are paired up to a distance only, so in the first step contact is searched at least as
+//! deep as the deepest overlap. An overlap of more than half the thickness of the body is refused:
+//! its other side is nearer, so that contact would press it out there as well.
 
 use std::sync::Arc;
 
@@ -36,7 +36,7 @@ use crate::{
 /// Overlap over the thickness of the body beyond which its other side is nearer.
 const HALF: f64 = 0.5;
 
-/// What is added to the gaps of a pair in a step.
+/// Offsets of the gaps of a pair in a step.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Offsets {
     /// `o_I` of the surface nodes, by side; empty where nothing is resolved.
@@ -47,8 +47,8 @@ pub struct Offsets {
 }
 
 impl Offsets {
-    /// Those of a pair in a step; none after the first one, or unless the pair says that its
-    /// overlaps are resolved.
+    /// Offsets of a pair in a step; none after the first step, and none unless the pair is to
+    /// resolve its overlaps.
     pub fn new(problem: &Problem, step: usize, pair: usize) -> Self {
         let of_pair = &problem.model.pairs[pair];
         let resolves = step == 0 && of_pair.initial == Initial::Resolve;
@@ -83,7 +83,7 @@ impl Offsets {
         self.seating.is_some() || all.any(|overlap| *overlap > 0.0)
     }
 
-    /// Distance in which contact has to be looked for to see all of them.
+    /// Search distance that finds all of them.
     pub fn search(&self, interference: Option<&InterferenceFit>) -> f64 {
         if let (Some(seating), Some(interference)) = (&self.seating, interference) {
             let beyond = seating.largest() + interference.largest();

@@ -1,9 +1,8 @@
-//! Whether the sides of a pair can ever meet.
+//! Test of whether the sides of a pair can ever meet.
 //!
-//! What only prescribed displacements move goes as far as the farthest of them, and its
-//! deformation adds no more than that again; what it moves as one piece goes where
-//! [`nearest_approach`] says. Loads, inertia, ties and free coordinates may take a body
-//! anywhere.
+//! Parts moved by prescribed displacements only move as far as the farthest of them, and their
+//! deformation adds at most as much again; parts moved as one piece follow [`nearest_approach`].
+//! Loads, inertia, ties and free coordinates may take a body anywhere.
 
 use striae_contact::initial::Fit;
 use striae_mesh::Vec3;
@@ -11,12 +10,12 @@ use striae_mesh::Vec3;
 use super::translation::nearest_approach;
 use crate::model::{BodyId, ContactSurface, Freedom, Model, PairId, Procedure, RigidId};
 
-/// Distance over that at the start that is none.
+/// Relative excess over the initial distance that counts as round-off.
 const ROUND_OFF: f64 = 1e-9;
 /// Motion that deformation may add, over that of what is prescribed.
 const DEFORMATION: f64 = 2.0;
 
-/// Whether a pair that fits like this may meet in some step.
+/// Returns whether a pair with this fit may meet in some step.
 pub fn may_meet(model: &Model, pair: PairId, fit: &Fit) -> bool {
     let of_pair = &model.pairs[pair.0];
     if fit.overlap.is_some() || of_pair.interference.is_some() {
@@ -34,13 +33,13 @@ pub fn may_meet(model: &Model, pair: PairId, fit: &Fit) -> bool {
     }
 }
 
-/// Whether sides that move as one piece come as near as round-off.
+/// Returns whether sides that move as one piece come as near as round-off.
 fn comes_near(model: &Model, pair: PairId, fit: &Fit) -> bool {
     let left = nearest_approach(model, pair);
     left.is_none_or(|left| left <= ROUND_OFF * fit.distance)
 }
 
-/// How far prescribed displacements take a body; `None`: anywhere.
+/// Distance that prescribed displacements move a body; `None` if it is unlimited.
 fn body_reach(model: &Model, body: BodyId) -> Option<f64> {
     let tied = |(other, _): &(BodyId, Vec<_>)| *other == body;
     if model
@@ -71,7 +70,7 @@ fn body_reach(model: &Model, body: BodyId) -> Option<f64> {
     farthest
 }
 
-/// How far prescribed coordinates take a rigid surface; `None`: anywhere.
+/// Distance that prescribed coordinates move a rigid surface; `None` if it is unlimited.
 fn rigid_reach(model: &Model, rigid: RigidId) -> Option<f64> {
     let mut farthest = 0.0_f64;
     for step in &model.steps {

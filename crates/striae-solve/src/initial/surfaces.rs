@@ -18,8 +18,8 @@ use crate::{
     state::State,
 };
 
-/// What is known of the nodes of all deformable sides in a state that no increment led to,
-/// by pair and side.
+/// Results at the nodes of all deformable sides in a state that no increment led to, by pair and
+/// side.
 pub fn surfaces(problem: &Problem, state: &State) -> Vec<[Vec<NodeResult>; 2]> {
     let pairs = 0..problem.pairs.len();
     pairs.map(|pair| of_pair(problem, state, pair)).collect()

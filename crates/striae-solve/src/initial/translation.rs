@@ -17,9 +17,9 @@ use crate::model::{
 /// Smallest and largest displacement along every axis.
 type Ranges = [(f64, f64); 3];
 
-/// How near the sides of a pair come that move as one piece each, along the direction in
-/// which they stay farthest apart; negative where they may overlap. `None` where one of
-/// them may deform before it touches.
+/// Smallest distance between the sides of a pair that move as one piece each, along the direction
+/// in which they stay farthest apart; negative if they may overlap. `None` if one of them may
+/// deform before it touches.
 pub(crate) fn nearest_approach(model: &Model, pair: PairId) -> Option<f64> {
     let of_pair = &model.pairs[pair.0];
     let ways = [way(model, pair, &of_pair.a)?, way(model, pair, &of_pair.b)?];
@@ -55,7 +55,7 @@ fn normal(model: &Model, side: &ContactSurface) -> Option<Vec3> {
     }
 }
 
-/// Where a side begins and ends along a direction.
+/// Extent of a side along a direction.
 fn extent(model: &Model, side: &ContactSurface, d: &Vec3) -> (f64, f64) {
     let over = |positions: &mut dyn Iterator<Item = Vec3>| {
         positions.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {

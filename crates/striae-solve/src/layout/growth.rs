@@ -48,7 +48,7 @@ struct Places<'a> {
     problem: &'a Problem,
     layout: &'a Layout,
     nodes: usize,
-    /// How many nodes the whole has.
+    /// Number of nodes of the whole problem.
     whole_nodes: usize,
 }
 

@@ -14,7 +14,7 @@ use crate::{node::GlobalNode, problem::Problem, share::Holding};
 const POSITIONS: usize = 3;
 
 impl Layout {
-    /// Which unknowns of the whole system those of the layout are.
+    /// Numbers in the whole system of the unknowns of the layout.
     pub fn numbering(&self, problem: &Problem) -> Numbering {
         let count = self.unknowns();
         match problem.share.holding() {

@@ -1,4 +1,4 @@
-//! An increment under way: corrections until the residual is small.
+//! An increment in progress: corrections until the residual is small.
 
 mod ending;
 
@@ -33,10 +33,11 @@ use crate::{
     state::State,
 };
 
-/// How often an increment is solved again with nodes that it turned out to need.
+/// Number of times that an increment is solved again with additional nodes that it turned out to
+/// need.
 const REPETITIONS: usize = 3;
 
-/// An increment under way.
+/// An increment in progress.
 pub(super) struct Attempt<'a> {
     context: &'a StepContext<'a>,
     state: &'a State,
@@ -53,17 +54,17 @@ pub(super) struct Attempt<'a> {
     inflation: Inflation,
     /// Iterations of the present problem.
     ladder: Ladder,
-    /// What came inside or through, by pair; empty before the end.
+    /// Interferences, by pair; empty before the end.
     pub(super) interferences: Vec<Vec<Interference>>,
-    /// What came inside bodies where no pair sees it.
+    /// Overlaps of bodies that no pair detects.
     pub(super) overlaps: Vec<BodyOverlap>,
-    /// What the latest state is accepted for, at the end.
+    /// Criterion by which the latest state is accepted, at the end.
     pub(super) acceptance: Acceptance,
-    /// Which pairs are closed in the latest state.
+    /// Pairs that are closed in the latest state.
     closed: Vec<bool>,
-    /// Whether the traction fields were chosen again.
+    /// `true` if the traction fields were chosen again.
     pub(super) has_reselected: bool,
-    /// What the first iteration goes by.
+    /// Rules of the first iteration.
     first: Iteration,
     /// The tangent there is.
     chord: Chord,
@@ -83,6 +84,7 @@ impl<'a> Attempt<'a> {
             tractions,
         } = selected(context, state, s);
         workspace.prepare(context.problem, &selections);
+        // Work of an attempt that failed is not that of this one.
         workspace.take_work();
         let rigid = workspace.first_poses(imposed);
         let trial = Trial {
@@ -104,6 +106,7 @@ impl<'a> Attempt<'a> {
             interferences: Vec::new(),
             overlaps: Vec::new(),
             acceptance: Acceptance::default(),
+            // Until contact has been evaluated nothing is known to have opened.
             closed: vec![true; context.pairs.len()],
             has_reselected: false,
             first: Iteration::First,
@@ -119,7 +122,7 @@ impl<'a> Attempt<'a> {
         }
     }
 
-    /// Whether it has started where the increment before leads to.
+    /// Returns whether the attempt started from the extrapolation of the previous increment.
     pub(super) fn follows(&self) -> bool {
         self.first != Iteration::First
     }
@@ -128,6 +131,8 @@ impl<'a> Attempt<'a> {
     /// collective.
     pub(super) fn follow(&mut self, course: &Course, time: f64) {
         let leave = self.trial.positions != self.state.positions;
+        // Bodies that separate start from moved positions; extrapolating as well would move them
+        // twice. All ranks have to decide alike.
         if !self.context.problem.share.any(leave) {
             course.follow(self.context, self.state, time, &mut self.trial);
             self.first = Iteration::LATER;
@@ -163,12 +168,14 @@ impl Attempt<'_> {
             let Some(reason) = missed else {
                 break;
             };
+            // Selections could alternate for ever between two sets of nodes.
             if repetition == REPETITIONS {
                 return Err(reason);
             }
             let found = reselected(&self.setting(), &self.trial, &assembled.contacts);
             assembled = self.taken_up(found, workspace)?;
         }
+        // Only at the end: trial states on the way may pass through each other without harm.
         self.interferences = passage(&self.setting(), &self.trial, &assembled.contacts)?;
         self.overlaps = overlap(&self.setting(), &self.trial)?;
         Ok(assembled)
@@ -223,6 +230,7 @@ impl Attempt<'_> {
                     self.acceptance = Acceptance::Converged;
                     return Ok(assembled);
                 }
+                // Further iterations are requested where solvers are compared beyond the tolerance.
                 further -= 1;
             }
             if settled && self.jumps() {
@@ -250,12 +258,15 @@ impl Attempt<'_> {
         self.chord.corrects(assembled);
         let correction = match assembled.derivatives {
             Derivatives::First => workspace.correction(residual, part),
+            // The matrix still holds an older tangent, and its factors serve.
             Derivatives::None => workspace.chord_correction(residual, part),
         };
         let correction = correction
             .map_err(|error| linear_system(context.problem, workspace.system().numbers(), error))?;
         let derivatives = self.wanted(assembled, iteration);
         let at_rest = match iteration {
+            // Late corrections are cheap already, and the first iteration of a step linearises
+            // closed contact.
             Iteration::Later { .. } if derivatives == Derivatives::First => {
                 let at = (&self.trial, assembled);
                 contact_at_rest(workspace, &self.setting(), at, &correction, before)?
@@ -288,19 +299,19 @@ impl Attempt<'_> {
         workspace.assemble(&setting, &self.trial, iteration, Derivatives::First)
     }
 
-    /// Whether the matrix serves a correction from the latest state.
+    /// Returns whether the matrix can be used for a correction from the latest state.
     fn has_tangent(&self, assembled: &Assembled) -> bool {
         let tolerance = self.context.problem.model.solver.tolerance;
         assembled.derivatives == Derivatives::First || self.chord.serves(assembled, tolerance)
     }
 
-    /// Whether rows are those of an evaluation with derivatives, by which alone nodes change
-    /// their status.
+    /// Returns whether the rows come from an evaluation with derivatives; only these change the
+    /// status of nodes.
     fn is_sure(&self, assembled: &Assembled) -> bool {
         assembled.derivatives == Derivatives::First || self.chord.holds(assembled)
     }
 
-    /// What is wanted of the state that a correction from the latest one leads to.
+    /// Derivatives needed of the state that a correction from the latest one leads to.
     fn wanted(&self, assembled: &Assembled, iteration: Iteration) -> Derivatives {
         let solver = &self.context.problem.model.solver;
         let is_plain = matches!(iteration, Iteration::Later { .. });
@@ -318,6 +329,8 @@ impl Attempt<'_> {
             (true, true) => {
                 let share = &self.context.problem.share;
                 let to_go = share_to_go(share, &self.trial, self.state, self.imposed);
+                // After an extrapolated start the residual can be small although prescribed nodes
+                // still have to move.
                 Some(norm.max(to_go))
             }
             (true, false) => None,
@@ -345,11 +358,12 @@ impl Attempt<'_> {
         self.has_reselected = true;
         self.trial.tractions = selected.tractions;
         workspace.extend(self.context.problem, &self.selections);
+        // New unknowns are a new problem: its iterations deserve the usual weights first.
         self.ladder.restart(self.iterations.len());
         self.assembled(workspace, self.next_iteration())
     }
 
-    /// What the next iteration goes by, unless it is the first one.
+    /// Rules of the next iteration, unless it is the first one.
     fn next_iteration(&self) -> Iteration {
         let strategy = self.context.problem.model.solver.strategy;
         let number = self.ladder.next(self.iterations.len());

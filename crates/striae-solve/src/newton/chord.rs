@@ -1,11 +1,10 @@
 //! Corrections with the tangent of an earlier state, near the end of an increment.
 //!
-//! Newton's method squares the residual: from `r_0` it comes to `r_1 = C r_0^2`. A further
-//! correction with the tangent and the factors at `r_0` leaves `C r_0 r_1`, so each one shrinks
-//! the residual by `r_1 / r_0`. Where a few of them reach the tolerance, neither a tangent nor
-//! factors are needed for them. So states that a small residual leads to are evaluated without
-//! derivatives; where that does not bring the increment to its end, derivatives are evaluated
-//! after all.
+//! Newton's method squares the residual: it reduces `r_0` to `r_1 = C r_0^2`. A further correction
+//! with the tangent and the factors at `r_0` leaves `C r_0 r_1`, so each one shrinks the residual
+//! by `r_1 / r_0`. Where a few of them reach the tolerance, neither a tangent nor factors are
+//! needed for them. So states that a small residual leads to are evaluated without derivatives;
+//! where that does not bring the increment to its end, derivatives are evaluated after all.
 
 use striae_contact::{segment::Derivatives, unknowns::Status};
 
@@ -17,10 +16,10 @@ use crate::{
 
 /// Residual from which on a state is evaluated without derivatives first.
 const LATE: f64 = 3e-3;
-/// How many corrections with an earlier tangent are as cheap as one with a new one.
+/// Number of corrections with an earlier tangent that cost as much as one with a new one.
 const CORRECTIONS: i32 = 2;
 
-/// What is wanted of the state that a correction from the residual `norm` leads to.
+/// Derivatives needed of the state that a correction from the residual `norm` leads to.
 pub(super) fn wanted(norm: f64) -> Derivatives {
     match norm <= LATE {
         true => Derivatives::None,
@@ -28,7 +27,7 @@ pub(super) fn wanted(norm: f64) -> Derivatives {
     }
 }
 
-/// What the tangent is of that the matrix holds, and what the last correction started from.
+/// State that the tangent in the matrix belongs to, and start of the last correction.
 #[derive(Debug, Default)]
 pub(super) struct Chord {
     statuses: Vec<Status>,
@@ -44,14 +43,17 @@ impl Chord {
         }
     }
 
-    /// Whether a few more corrections with the tangent bring a state to the tolerance.
+    /// Returns whether a few more corrections with this tangent would bring a state within the
+    /// tolerance.
     pub(super) fn serves(&self, assembled: &Assembled, tolerance: f64) -> bool {
         let norm = assembled.norms.largest();
         let rate = norm / self.norm;
+        // Corrections with one tangent all reduce the residual by the rate of the last one.
         norm * rate.powi(CORRECTIONS) <= tolerance && self.holds(assembled)
     }
 
-    /// Whether nodes have the statuses that they had then; rows of others are different ones.
+    /// Returns whether nodes still have the statuses of the tangent; other statuses have other
+    /// rows.
     pub(super) fn holds(&self, assembled: &Assembled) -> bool {
         statuses(assembled).eq(self.statuses.iter().copied())
     }
@@ -64,6 +66,8 @@ pub(super) fn share_to_go(share: &Share, trial: &Trial, state: &State, imposed: 
         [&trial.positions, &state.positions].map(|x| (end - x[node][axis]).abs())
     });
     let mut most = ways.fold([0.0; 2], |sum: [f64; 2], way| {
+        // The largest, not the mean: one node that still has to move is enough to distrust the
+        // residual.
         [0, 1].map(|at| sum[at].max(way[at]))
     });
     share.team().largest(&mut most);

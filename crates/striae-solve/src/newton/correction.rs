@@ -26,7 +26,7 @@ pub(super) fn labelled(trial: &mut Trial, contacts: &[Evaluation]) {
 /// Smallest part of a correction that is tried.
 const SMALLEST_PART: f64 = 1.0 / 16.0;
 
-/// How much of a correction was applied.
+/// Part of a correction that was applied.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Taken {
     Whole,
@@ -93,12 +93,12 @@ pub(super) fn corrected(
     next
 }
 
-/// What the rows of the tractions of a node state.
+/// Equations of the rows of a node's tractions.
 #[derive(Clone, Copy, PartialEq)]
 enum Rows {
-    /// What the status of the node asks for.
+    /// Equations of the status of the node.
     OfStatus,
-    /// That they stay as they are.
+    /// The tractions stay unchanged.
     Idle,
 }
 

@@ -1,8 +1,8 @@
-//! Where an increment starts from: what those before it lead to.
+//! Start of an increment, extrapolated from the previous ones.
 //!
-//! In a step that goes on as it did, positions and tractions change smoothly. An increment of
-//! the size `dt` starts where the last state and the one or two before it in the same step
-//! lead to (one in dynamics), `dt_0` being the size of the last increment and `t` its own end:
+//! Within a step, positions and tractions change smoothly. An increment of the size `dt` starts
+//! where the last state and the one or two before it in the same step lead to (one in dynamics),
+//! `dt_0` being the size of the last increment and `t` its own end:
 //!
 //! ```text
 //! x = x_n + dt/dt_0 (x_n - x_(n-1))                                 two states
@@ -28,7 +28,7 @@ use crate::{
     state::State,
 };
 
-/// What an increment started from: a continued step starts the next one where both lead to.
+/// Start of an increment: a continued step extrapolates from it to start the next one.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Course {
     /// Number of the step.
@@ -67,9 +67,11 @@ impl Course {
         }
     }
 
-    /// Whether an increment from `state` continues this one.
+    /// Returns whether an increment from `state` continues this one.
     pub(super) fn leads_on(&self, context: &StepContext, state: &State) -> bool {
         let semismooth = context.problem.model.solver.strategy == Strategy::Semismooth;
+        // Loads bend at the start of a step, and the paper's strategy predicts stick from the
+        // converged state.
         semismooth && self.step == context.index && self.end == state.time
     }
 
@@ -99,6 +101,7 @@ impl Course {
             let older = before.map(|before| before.positions[node]);
             *position = Vec3::from_fn(|at, _| weights.on(now[at], last[at], older.map(|x| x[at])));
         }
+        // Extrapolated dependent nodes need not satisfy their ties.
         trial.place_tied(problem);
         for (pair, tractions) in trial.tractions.iter_mut().enumerate() {
             for side in Side::BOTH {
@@ -107,6 +110,8 @@ impl Course {
                     let now = state.pairs[pair].tractions.nodes[side][node];
                     let last = self.tractions[pair][side][node];
                     // Roles that change leave another field.
+                    // A pressure that was zero has a kink, across which a line would predict
+                    // tension.
                     if *unknowns == now && now[0] > 0.0 && last[0] > 0.0 {
                         let older = before.map(|before| before.tractions[pair][side][node]);
                         let older = older.filter(|older| older[0] > 0.0);
@@ -120,7 +125,7 @@ impl Course {
     }
 }
 
-/// How the last states are weighed.
+/// Weights of the last states.
 struct Weights {
     /// `dt/dt_0`.
     ratio: f64,
@@ -142,7 +147,7 @@ impl Weights {
         }
     }
 
-    /// Where a quantity is led to by its last two or three values.
+    /// Extrapolation of a quantity from its last two or three values.
     fn on(&self, now: f64, last: f64, older: Option<f64>) -> f64 {
         let [c_1, c_2] = self.quadratic;
         match older {

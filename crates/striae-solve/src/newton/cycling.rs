@@ -30,11 +30,12 @@ impl History {
         self.topologies.push(topologies.collect());
     }
 
-    /// Whether the last correction led back to polygons that contact had before the one
-    /// before it.
+    /// Returns whether the last correction led back to the polygons that contact had two
+    /// corrections ago.
     pub(super) fn goes_back_and_forth(&self) -> bool {
         let last = &self.topologies[self.topologies.len().saturating_sub(WINDOW)..];
         match last {
+            // A change that never occurred before is progress, not a cycle.
             [earlier @ .., before, now] => before != now && earlier.contains(now),
             _ => false,
         }

@@ -1,4 +1,4 @@
-//! Where bodies start from that leave each other in one increment.
+//! Start of bodies that separate in one increment.
 //!
 //! The first iteration is linearised with closed contact. A body that is moved by more than
 //! it overlaps with another would drag that other along and be turned inside out. Where two
@@ -47,6 +47,7 @@ pub(super) fn first_positions(
             continue;
         }
         let start = context.configuration(pair, &state.positions, &state.rigid);
+        // Shorter motions are within what the linearisation of closed contact can follow.
         let is_far = way.norm() > start.side(Side::A).largest_size;
         let left = is_far && {
             let end = context.configuration(pair, &moved, rigid);
@@ -56,6 +57,7 @@ pub(super) fn first_positions(
         bodies.iter().for_each(|&body| of_kind[body] = true);
     }
     let mut positions = state.positions.clone();
+    // Moving a body that stays in contact with another one would break that contact.
     for body in (0..moves.len()).filter(|&body| apart[body] && !together[body]) {
         let nodes = problem.first_node[body]..problem.first_node[body + 1];
         positions[nodes.clone()].copy_from_slice(&moved[nodes]);
@@ -63,8 +65,7 @@ pub(super) fn first_positions(
     positions
 }
 
-/// How far what is prescribed moves each body on average, zero for bodies that are tied.
-/// Collective.
+/// Mean prescribed motion of each body, zero for tied bodies. Collective.
 fn mean_moves(context: &StepContext, state: &State, imposed: &Imposed) -> Vec<Vec3> {
     let problem = context.problem;
     let bodies = problem.model.bodies.len();
@@ -80,6 +81,7 @@ fn mean_moves(context: &StepContext, state: &State, imposed: &Imposed) -> Vec<Ve
     let mean = |body: usize| {
         let mut nodes = problem.first_node[body]..problem.first_node[body + 1];
         if problem.ties.joins(body) || nodes.any(|node| problem.tie_of[node].is_some()) {
+            // Tied bodies move with others, and a rigid start of one of them would tear the tie.
             return Vec3::zeros();
         }
         Vec3::from_fn(|axis, _| sums[body][axis] / counts[body][axis].max(1.0))

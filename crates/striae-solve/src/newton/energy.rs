@@ -1,4 +1,4 @@
-//! Where the energy of an increment goes.
+//! Balance of the energy of an increment.
 //!
 //! With the displacements `d` of an increment, the forces at its ends 0 and 1 and
 //! the weight `a` of the start (`a_f` of the time integration, 1/2 in quasi-static
@@ -212,7 +212,7 @@ impl Ends<'_> {
         self.of_surfaces_with(self.held_weight(), wanted, way)
     }
 
-    /// The same with another weight of the start.
+    /// Work on surfaces with another weight of the start.
     fn of_surfaces_with(&self, weight: f64, wanted: impl Fn(usize) -> bool, way: Way) -> f64 {
         let problem = self.context.problem;
         let mut work = 0.0;
@@ -264,7 +264,7 @@ impl Ends<'_> {
         self.work(|node| self.held(before.stabilisation[node], after.stabilisation[node]))
     }
 
-    /// What stabilisation takes by its forces at the end, which is never negative.
+    /// Energy dissipated by the forces of stabilisation at the end, which is never negative.
     fn stabilisation(&self) -> f64 {
         let problem = self.context.problem;
         let pairs = self.imposed.dashpots.iter().enumerate();
@@ -360,7 +360,7 @@ fn mean<T: Mul<f64, Output = T> + Add<Output = T>>(weight: f64, start: T, end: T
 enum Way {
     /// The chord.
     Whole,
-    /// What the chord has more than the arc.
+    /// Difference between chord and arc.
     BeyondArc,
 }
 
@@ -372,7 +372,7 @@ struct Pushing<'a> {
     positions: &'a [Vec3],
     /// Of the body at both ends.
     poses: [&'a Pose; 2],
-    /// Which end it is.
+    /// Number of the end.
     end: usize,
 }
 

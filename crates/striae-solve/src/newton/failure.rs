@@ -100,8 +100,8 @@ fn place(problem: &Problem, layout: &Layout, unknown: usize) -> String {
     match unknown - layout.position(GlobalNode(at)) {
         component @ 0..3 => {
             let axis = ["x", "y", "z"][component];
-            format!("body `{name}` is not held: {node} is free to move in {axis}")
+            format!("body `{name}` is not restrained: {node} is free to move in {axis}")
         }
-        _ => format!("the contact traction at {node} of body `{name}` is not determined"),
+        _ => format!("the contact traction at {node} of body `{name}` is undetermined"),
     }
 }

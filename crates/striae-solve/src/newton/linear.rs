@@ -1,4 +1,4 @@
-//! What solves the linear systems: a solver of one's own, or one of all ranks together.
+//! Solver of the linear systems: a user-defined one, or one of all ranks together.
 
 use striae_condensed::{
     Analysis, Automatic, Choice, Experience, Factored, FactoredInterior, Numbering, Partition,
@@ -27,7 +27,7 @@ pub(super) enum Linear {
 }
 
 impl Linear {
-    /// A solver of one's own.
+    /// Creates a solver of this process.
     pub(super) fn new(backend: Backend) -> Self {
         Self::Alone(Box::new(automatic(backend)))
     }
@@ -54,8 +54,8 @@ impl Linear {
         }
     }
 
-    /// Factors a tangent, on a thread of the pool, as all linear algebra of one's own: it need
-    /// not be woken then.
+    /// Factors a tangent, on a thread of the pool, as all linear algebra of this process does: it
+    /// need not be woken then.
     pub(super) fn factor(&mut self, tangent: &Tangent) -> Result<Factored, SolveError> {
         match self {
             Self::Alone(solver) => rayon::scope(|_| solver.factor(tangent)),
@@ -104,12 +104,12 @@ impl Linear {
         }
     }
 
-    /// Whether there are factors of the bodies on which contact alone can be corrected.
+    /// Returns whether there are factors of the bodies with which contact alone can be corrected.
     pub(super) fn has_interior(&self) -> bool {
         matches!(self, Self::Alone(solver) if solver.has_interior())
     }
 
-    /// What earlier matrices have taught it, and what its older factors were made of.
+    /// Experience from earlier matrices, and the interior that the older factors were made of.
     pub(super) fn experience(&self) -> (Experience, Option<FactoredInterior>) {
         match self {
             Self::Alone(solver) => (solver.experience().clone(), solver.factored_interior()),

@@ -41,13 +41,13 @@ const ROUND_OFF: f64 = 1e-11;
 /// Most corrections of an increment.
 const CORRECTIONS: usize = 4;
 
-/// A converged increment with where it came from.
+/// Converged increment with the state it started from.
 pub(crate) struct Base<'a> {
     /// Its step.
     pub context: &'a StepContext<'a>,
     /// The state before it.
     pub before: &'a State,
-    /// What it came to.
+    /// Converged increment.
     pub increment: &'a Increment,
     /// Fraction of the step at its end.
     pub fraction: f64,
@@ -67,7 +67,7 @@ pub(crate) struct Neighbour<'a> {
 pub(crate) struct Moved {
     /// Their states.
     pub states: [State; 2],
-    /// What a further correction would have changed, over the first one.
+    /// Change that a further correction would have made, over the first one.
     pub remainder: f64,
 }
 
@@ -165,7 +165,7 @@ pub(crate) fn linearise(base: &Base, workspace: &mut Workspace) -> Result<(), Cu
     let of_pairs = state.pairs.iter().zip(&base.before.pairs);
     let tractions = of_pairs.map(|(after, before)| {
         let mut tractions = after.tractions.clone();
-        // What the rows of the increment saw: slip up to its start.
+        // The rows of the increment saw the slip up to its start.
         tractions
             .accumulated
             .clone_from(&before.tractions.accumulated);

@@ -1,7 +1,7 @@
 //! Bodies that have gone through each other without contact that saw it.
 //!
-//! A converged increment is looked at from outside, see [`striae_contact::interference`], on
-//! all facets. Contact has missed what
+//! A converged increment is audited, see [`striae_contact::interference`], on all facets. Contact
+//! has missed what
 //!
 //! - went through a body and out on its other side,
 //! - is or was inside by more than half the local facet size, or went in and out beside
@@ -32,14 +32,14 @@ use crate::{
 
 /// Depth over the facet size from which on points inside are missed where nothing acts.
 const UNSEEN: f64 = 0.5;
-/// The same wherever they are.
+/// Depth over the facet size from which on points inside are missed anywhere.
 const DEEP: f64 = 1.0;
 
-/// What has come inside or through on the way to a trial state, deeper than [`SHARE`] of the
-/// facet size, by pair.
+/// Interferences that arose on the way to a trial state, deeper than [`SHARE`] of the facet size,
+/// by pair.
 ///
 /// # Errors
-/// If contact has missed some of it.
+/// If contact missed some of them.
 pub(super) fn passage(
     setting: &Setting,
     trial: &Trial,
@@ -64,7 +64,7 @@ fn found(setting: &Setting, trial: &Trial, pair: usize) -> Vec<Interference> {
     beyond(found, meant_depth(problem, pair), SHARE)
 }
 
-/// Where everything is at the start of the increment and in the trial state.
+/// Positions at the start of the increment and in the trial state.
 fn ends<'a>(setting: &Setting<'a>, trial: &'a Trial) -> [Positions<'a>; 2] {
     let end = Positions {
         nodes: &trial.positions,
@@ -73,7 +73,7 @@ fn ends<'a>(setting: &Setting<'a>, trial: &'a Trial) -> [Positions<'a>; 2] {
     [Positions::from(setting.state), end]
 }
 
-/// What contact of a pair has missed of what was found.
+/// Interferences, out of those found, that the contact of a pair has missed.
 fn missed(
     setting: &Setting,
     trial: &Trial,
@@ -105,10 +105,10 @@ fn missed(
     })
 }
 
-/// What has come inside bodies where no pair sees it on the way to a trial state; collective.
+/// Overlaps of bodies that no pair detects and that arose on the way to a trial state; collective.
 ///
 /// # Errors
-/// If some of it is deeper than half the facet size.
+/// If some of them are deeper than half the facet size.
 pub(super) fn overlap(setting: &Setting, trial: &Trial) -> Result<Vec<BodyOverlap>, CutBack> {
     let problem = setting.context.problem;
     let overlaps = overlaps(
@@ -136,7 +136,7 @@ pub(super) fn overlap(setting: &Setting, trial: &Trial) -> Result<Vec<BodyOverla
     })
 }
 
-/// Whether a point is deeper inside than contact resolves.
+/// Returns whether a point is deeper inside than contact resolves.
 fn is_missed(sides: &[PairedSurface; 2], contact: &Evaluation, found: &Interference) -> bool {
     let corners = |side: Side, facet: FacetId| -> Vec<SurfaceNode> {
         let surface = sides[side].surface();

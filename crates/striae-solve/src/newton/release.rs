@@ -18,7 +18,7 @@ use crate::{
     state::State,
 };
 
-/// Which pairs are closed somewhere.
+/// Pairs that are closed somewhere.
 pub(super) fn closed(contacts: &[Evaluation]) -> Vec<bool> {
     contacts
         .iter()
@@ -48,6 +48,7 @@ pub(super) fn released(
             | CutBack::LinearSystem { .. }
     );
     let procedure = context.problem.model.steps[context.index].procedure;
+    // With inertia a body without contact flies, which is a solution.
     if !may_be || procedure != Procedure::QuasiStatic {
         return None;
     }

@@ -1,9 +1,9 @@
 //! Contact brought to rest on linearised bodies.
 //!
-//! After a correction contact has changed: nodes have closed or begun to slip. While
-//! the factors of the bodies are at hand, contact is corrected again and again with
-//! the bodies left linear, at the price of a small dense system, until it rests. What
-//! is found takes the place of the correction if the true residual is better for it.
+//! After a correction contact has changed: nodes have closed or begun to slip. While the factors of
+//! the bodies are available, contact is corrected repeatedly with linear bodies, at the cost of a
+//! small dense system, until it rests. The result replaces the correction if the true residual is
+//! smaller.
 
 use striae_contact::{complementarity::Iteration, segment::Derivatives};
 
@@ -26,12 +26,12 @@ const LEFT: f64 = 0.01;
 /// Corrects contact on bodies linearised at `trial`, and evaluates the state that is
 /// reached.
 ///
-/// `correction` leads to the first state that contact is evaluated at, `before` is the
-/// norm at `trial` if it is known. `None` where the true norm is not better for it, or the
-/// state cannot be evaluated: the correction alone leads to another one.
+/// `correction` leads to the first state at which contact is evaluated, `before` is the norm at
+/// `trial` if it is known. Returns `None` if the true norm does not improve or the state cannot be
+/// evaluated: the correction alone leads to another state.
 ///
 /// # Errors
-/// What is no fault of the state that is reached.
+/// Returns errors that are not caused by the state that is reached.
 pub(super) fn contact_at_rest(
     workspace: &mut Workspace,
     setting: &Setting,
@@ -43,6 +43,7 @@ pub(super) fn contact_at_rest(
         return Ok(None);
     }
     let tolerance = setting.context.problem.model.solver.tolerance;
+    // The nonlinearity of the bodies leaves an error of the order of the square of the norm anyway.
     let enough = before.map_or(AT_REST, |norm| (LEFT * norm * norm).max(0.1 * tolerance));
     let background = &assembled.background;
     let mut whole = correction.to_vec();
@@ -58,6 +59,8 @@ pub(super) fn contact_at_rest(
         if pass == MOST || found.norms.largest() <= enough {
             let contact = Contact::Known(found.contacts);
             let assembled = workspace.assemble_with(contact, setting, &next, Derivatives::First);
+            // The prediction on linear bodies can be worse than none; then the plain correction is
+            // taken.
             let is_better = |found: &Assembled| found.norms.largest() <= before.unwrap_or(1.0);
             let better = evaluated(assembled)?.filter(is_better);
             return Ok(better.map(|assembled| (next, assembled)));
@@ -74,7 +77,7 @@ pub(super) fn contact_at_rest(
     Ok(None)
 }
 
-/// What was evaluated; `None` for a state at which there is nothing to evaluate.
+/// Result of an evaluation; `None` for a state at which it is not possible.
 fn evaluated<T>(found: Result<T, CutBack>) -> Result<Option<T>, CutBack> {
     match found {
         Ok(found) => Ok(Some(found)),

@@ -1,4 +1,4 @@
-//! What an iteration goes by, and how far its linear system is solved.
+//! Rules of an iteration, and accuracy to which its linear system is solved.
 
 use striae_condensed::REDUCTION;
 use striae_contact::{
@@ -8,8 +8,8 @@ use striae_contact::{
 
 use crate::model::Strategy;
 
-/// Iterations of the present problem: the rows of contact that are solved for are others once
-/// nodes are chosen again, and what earlier ones did not come to says nothing of them.
+/// Iterations of the present problem: the rows of contact that are solved for are others once nodes
+/// are chosen again, and earlier failures to converge do not concern them.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Ladder {
     /// Iterations made when it was posed.
@@ -28,7 +28,7 @@ impl Ladder {
     }
 }
 
-/// What an iteration of a problem after the first one of the increment goes by.
+/// Rules of an iteration after the first one of the increment.
 pub(super) fn later(strategy: Strategy, inflation: Inflation, number: usize) -> Iteration {
     match strategy {
         Strategy::Semismooth => Iteration::Later {
@@ -46,12 +46,14 @@ pub(super) fn later(strategy: Strategy, inflation: Inflation, number: usize) -> 
 fn slip_weight(number: usize) -> f64 {
     match number {
         0..=13 => 1.0,
+        // First contact has no length scale: if active sets cycle, smaller increments do not help,
+        // but another weight does.
         14..=26 => 0.03,
         _ => 10.0,
     }
 }
 
-/// Whether the friction of an iteration is the true one.
+/// Returns whether the friction of an iteration is the true one.
 pub(super) fn is_final(iteration: Iteration) -> bool {
     match iteration {
         Iteration::First | Iteration::Later { .. } => true,
@@ -66,6 +68,8 @@ const LARGEST_PART: f64 = 1e-3;
 /// small as bodies that are not linear let it be.
 pub(super) fn part(norm: Option<f64>, tolerance: f64) -> f64 {
     norm.map_or(REDUCTION, |norm| {
+        // Quadratic convergence squares the norm, so a hundredth of it is enough; beyond the
+        // tolerance accuracy is wasted.
         (0.01 * norm).max(0.1 * tolerance / norm).min(LARGEST_PART)
     })
 }

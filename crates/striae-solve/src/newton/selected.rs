@@ -42,7 +42,7 @@ pub(super) fn selected_in(
     selected
 }
 
-/// The same where friction of all kept nodes is determined in all directions.
+/// Selection in which friction of all kept nodes is determined in all directions.
 fn without_freedoms(
     context: &StepContext,
     state: &State,
@@ -70,6 +70,7 @@ fn without_freedoms(
             tractions.tau_n = of_pair
                 .carried
                 .each_ref()
+                // The unknown is `z = -tau`.
                 .map(|side| side.iter().map(|[_, t1, t2]| [-t1, -t2]).collect());
             let with = |status: Status| {
                 let of_side = |side: &Vec<NodeResult>| -> Vec<bool> {
@@ -80,6 +81,7 @@ fn without_freedoms(
             tractions.stuck = with(Status::Stick);
             tractions.slipped = match semismooth {
                 true => with(Status::Slip),
+                // The strategy of Table 1 predicts stick in every increment.
                 false => of_pair.nodes.each_ref().map(|side| vec![false; side.len()]),
             };
             let labelled = |side: &Vec<bool>| side.iter().map(|slipped| label(*slipped)).collect();
@@ -110,7 +112,7 @@ fn label(slipped: bool) -> Label {
     }
 }
 
-/// The fields chosen anew with what a trial state shows.
+/// The fields chosen again with the contacts of a trial state.
 pub(super) fn reselected(setting: &Setting, trial: &Trial, contacts: &[Evaluation]) -> Selected {
     let (mut selections, tractions): (Vec<_>, Vec<_>) = with_configurations(setting, trial)
         .enumerate()
@@ -150,6 +152,7 @@ fn restrict<'a>(
     let pairs = 0..selections.len();
     let prescribed = || context.fixed_on_pair.iter().flatten().flatten();
     if !pairs.clone().any(has_friction)
+        // A single pair of free surfaces has as many positions as unknowns; nothing is contested.
         || selections.len() == 1 && !prescribed().any(|prescribed| *prescribed)
     {
         return;
@@ -215,6 +218,8 @@ fn fit(
             if !selection.is_kept(side, node) {
                 *unknowns = [0.0; 3];
             } else if !before[side][node] {
+                // A new node continues the previous field at its place, so that roles can change
+                // without a jump of the forces.
                 *unknowns = carried[side][node];
             }
         }

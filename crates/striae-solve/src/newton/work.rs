@@ -1,10 +1,10 @@
-//! What linear systems take, for reports and profiles.
+//! Work spent on linear systems, for reports and profiles.
 
 use std::time::Duration;
 
 use striae_condensed::{FallBack, Method};
 
-/// What the linear systems of an increment took.
+/// Work spent on the linear systems of an increment.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LinearWork {
     /// Factorisations of the bodies; others of contact were made on older ones.
@@ -13,11 +13,11 @@ pub struct LinearWork {
     pub contact_corrections: usize,
     /// Iterations of GMRES.
     pub krylov_iterations: usize,
-    /// How the last one was made.
+    /// Method of the last factorisation.
     pub method: Method,
-    /// Why the solver that was asked for was not used in the last one.
+    /// Reason why the requested solver was not used in the last one.
     pub fall_back: Option<FallBack>,
-    /// Where the time went.
+    /// Time spent on each part.
     pub times: Times,
 }
 

@@ -29,12 +29,12 @@ use crate::{
 /// Part of the residual that is as good as nothing.
 const EXACT: f64 = 1e-12;
 
-/// What survives between increments to save work; it holds no results.
+/// Data that are kept between increments to save work; no results are among them.
 pub struct Workspace {
     pub(super) solver: Linear,
     system: Option<SystemStorage>,
     work: LinearWork,
-    /// What the last increment started from.
+    /// Start of the last increment.
     pub(super) course: Option<Course>,
 }
 
@@ -140,8 +140,7 @@ impl Workspace {
         self.system.as_mut().expect("the workspace was prepared")
     }
 
-    /// Evaluates a trial state with contact in an iteration; the pattern grows as contact asks
-    /// for it.
+    /// Evaluates a trial state with contact in an iteration; the pattern grows as contact needs it.
     pub(super) fn assemble(
         &mut self,
         setting: &Setting,
@@ -152,7 +151,7 @@ impl Workspace {
         self.assemble_with(Contact::Evaluated(iteration), setting, trial, derivatives)
     }
 
-    /// The same with contact from where it comes.
+    /// Assembles the system with contact from the given source.
     pub(super) fn assemble_with(
         &mut self,
         contact: Contact,
@@ -176,7 +175,7 @@ impl Workspace {
         assembled
     }
 
-    /// Whether contact can be corrected on linearised bodies.
+    /// Returns whether contact can be corrected on linearised bodies.
     pub(super) fn corrects_contact(&self) -> bool {
         let system = self.system.as_ref();
         self.solver.has_interior() && system.is_some_and(|system| system.layout.moves_no_body())
@@ -271,7 +270,7 @@ impl Workspace {
         )
     }
 
-    /// What was done since the last call.
+    /// Work done since the last call, which is then reset.
     pub(super) fn take_work(&mut self) -> LinearWork {
         std::mem::take(&mut self.work)
     }
@@ -371,8 +370,8 @@ impl SystemStorage {
         self.analysed = false;
     }
 
-    /// The pattern of contact has grown. A solver that knows the older one looks at the new
-    /// one now, so that what it has kept does not depend on when it is asked next.
+    /// The pattern of contact has grown. A solver prepared for the older one is prepared for the
+    /// new one now, so that its kept data do not depend on the time of the next request.
     fn has_grown(&mut self, growth: &Growth, solver: &mut Linear) {
         self.growth.extend(growth.clone());
         if std::mem::take(&mut self.analysed) {

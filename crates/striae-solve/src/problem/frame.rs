@@ -1,4 +1,4 @@
-//! What of a problem follows from its model before there are elements.
+//! Parts of a problem that follow from its model before there are elements.
 
 use super::{PairGeometry, ProblemError, fibres::add_fibres, pair_geometry, shadow::shadowed};
 use crate::{
@@ -24,19 +24,19 @@ pub(crate) struct Frame {
     pub(crate) massless: Vec<bool>,
     /// Nodes that follow nodes which touch the same opponent.
     pub(crate) shadowed: Vec<[Vec<bool>; 2]>,
-    /// What every body is made of.
+    /// Materials of every body.
     pub(crate) materials: Vec<Materials>,
     /// The skins of all bodies of the whole.
     pub(crate) skin: Skin,
-    /// What of the whole it is.
+    /// Share of the whole problem.
     pub(crate) share: Share,
 }
 
 impl Frame {
-    /// That of a whole model.
+    /// Frame of a whole model.
     ///
     /// # Errors
-    /// When a tie or a pair is none.
+    /// If a tie or a pair is not valid.
     pub(crate) fn new(model: Model) -> Result<Self, ProblemError> {
         let ties = Ties::new(&model).map_err(|mut faults| ProblemError::Tie(faults.remove(0)))?;
         let placed = (!ties.is_empty()).then(|| ties.moved(model.clone()));

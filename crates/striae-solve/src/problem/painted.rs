@@ -12,7 +12,7 @@ use striae_surface::{
 use super::ProblemError;
 use crate::model::{ContactSurface, Model, Pair};
 
-/// Why a texture has no direction at a node.
+/// Reason why a texture has no direction at a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Undirected {
     /// The axis of the field passes through the node.
@@ -22,7 +22,7 @@ pub enum Undirected {
 }
 
 impl Undirected {
-    /// Why a field has no direction at a point.
+    /// Reason why a field has no direction at a point.
     pub(crate) fn of(field: &Field, x: &Vec3) -> Self {
         match &field.lines {
             Lines::Circumferential(axis) | Lines::Radial(axis) => {
@@ -45,7 +45,7 @@ impl Undirected {
                 "its axis passes through that node, where circles and rays have no direction; move the axis or the mesh so that no node lies on it, or leave the facets around the node out of the pair"
             }
             Self::AlongNormal => {
-                "it is along the normal of the surface there; choose a direction that lies in the surface"
+                "it is normal to the surface there; choose a direction with a tangential part"
             }
         }
     }

@@ -1,9 +1,9 @@
 //! Nodes of contact surfaces that follow others on the same floor.
 //!
-//! Where two tied bodies rest on a third, a node that follows has its gap from the nodes that
-//! it follows. If these touch the same opponent, a row of its own would say again what
-//! theirs say, and its pressure would not be determined; so it is no candidate for one and
-//! carries what its neighbours have.
+//! If two tied bodies rest on a third, the gap of a dependent node follows from the nodes that it
+//! depends on. If these touch the same opponent, a row of its own would repeat theirs, and its
+//! pressure would not be determined; so it is no candidate for one and carries what its neighbours
+//! have.
 
 use striae_contact::side::Side;
 
@@ -13,7 +13,7 @@ use crate::{node::GlobalNode, tie::Ties};
 /// Weight over the largest one of a node that is not asked.
 const SMALL: f64 = 0.05;
 
-/// What a side faces: a rigid surface or a body.
+/// Opponent of a side: a rigid surface or a body.
 type Opponent = (Option<usize>, Option<usize>);
 
 /// Such nodes, by pair and side; no lists without ties.

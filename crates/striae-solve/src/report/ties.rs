@@ -1,4 +1,4 @@
-//! What ties amount to in a state.
+//! Resultants and tractions of ties in a state.
 
 use striae_contact::side::Side;
 use striae_mesh::Vec3;
@@ -6,7 +6,7 @@ use striae_surface::{normal::nodal_normals, topology::Surface};
 
 use crate::{problem::Problem, state::State};
 
-/// What a tie amounts to.
+/// Resultants of a tie.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TieReport {
     /// Name of the tie.
@@ -21,7 +21,7 @@ pub struct TieReport {
     pub moment_mismatch: f64,
 }
 
-/// What a tie exerts on one of its sides.
+/// Forces and torques that a tie exerts on one of its sides.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TieSide {
     /// Force.
@@ -61,7 +61,7 @@ pub fn ties(problem: &Problem, state: &State) -> Vec<TieReport> {
         .collect()
 }
 
-/// What a tie exerts on a node of one of its sides.
+/// Traction that a tie exerts on a node of one of its sides.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TieTraction {
     /// Unit normal of the side, outward.

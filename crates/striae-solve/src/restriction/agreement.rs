@@ -11,8 +11,7 @@ use crate::{
 /// Body, element, quadrature point and determinant of what is degenerate.
 type Found = (usize, u32, usize, f64);
 
-/// What a rank has made of its share, or the first element of the whole model that is
-/// degenerate, by body and number.
+/// Share made by a rank, or the first degenerate element of the whole model, by body and number.
 pub(super) fn agreed(
     share: &Share,
     bodies: &[String],

@@ -1,4 +1,4 @@
-//! Which of the whole a rank holds, who owns it, and which other ranks hold it as well.
+//! Parts of the whole that a rank holds, their owners, and the other ranks that hold them.
 
 use striae_mesh::{ElementId, NodeId, Vec3};
 
@@ -12,7 +12,7 @@ use crate::{
     share::{Division, Holding, Whole},
 };
 
-/// What a rank holds.
+/// Description of what a rank holds.
 pub(super) fn holding(
     whole: &Frame,
     division: &Division,
@@ -94,7 +94,7 @@ fn common(
     common
 }
 
-/// What is known of the whole.
+/// Data of the whole problem that every rank keeps.
 fn known(whole: &Frame, points: &[Vec3], nodes: usize) -> Whole {
     let model = &whole.model;
     let at = whole.placed.as_ref().unwrap_or(model);

@@ -1,4 +1,4 @@
-//! What a rank has of a model, with local numbers.
+//! Part of a model held by a rank, with local numbers.
 
 use striae_mesh::{CellBlock, ElementId, Mesh, NodeId, Sets};
 

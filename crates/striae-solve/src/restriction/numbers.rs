@@ -5,25 +5,25 @@ use striae_mesh::{ElementId, Face, NodeId};
 
 use crate::{model::Model, node::GlobalNode, problem::Frame, share::Division, tie::first_nodes};
 
-/// What stands for what is not held.
+/// Marker of nodes and elements that are not held.
 const NOWHERE: u32 = u32::MAX;
 
 /// Local numbers of nodes and elements.
 pub(super) struct Numbers {
     /// First node of every body in the whole, and the number of their nodes.
     first_whole: Vec<usize>,
-    /// The same of local nodes.
+    /// First local node of every body, and the number of local nodes.
     first_local: Vec<usize>,
     /// Local number of every node of all bodies.
     nodes: Vec<u32>,
     /// Local number of every element, by body.
     elements: Vec<Vec<u32>>,
-    /// Whether all ranks hold a node of a body.
+    /// `true` for nodes of bodies that all ranks hold.
     replicated: Vec<bool>,
 }
 
 impl Numbers {
-    /// What a rank holds: its elements with their nodes, and what is replicated.
+    /// Numbers of what a rank holds: its elements with their nodes, and what is replicated.
     pub(super) fn new(whole: &Frame, division: &Division, rank: usize) -> Self {
         let model = &whole.model;
         let first_whole = first_nodes(model);
@@ -101,12 +101,12 @@ impl Numbers {
         Some(Face { element, ..face })
     }
 
-    /// Whether all ranks hold a node of the whole.
+    /// Returns whether all ranks hold a node of the whole.
     pub(super) fn is_replicated(&self, node: GlobalNode) -> bool {
         self.replicated.get(node.0).is_none_or(|is| *is)
     }
 
-    /// Those of values of all nodes of bodies that belong to local ones.
+    /// Values of local nodes, selected from those of all nodes of bodies.
     pub(super) fn of_bodies<T: Copy>(&self, values: &[T]) -> Vec<T> {
         let nodes = self.nodes.iter().zip(values);
         let local = nodes.filter(|(local, _)| **local != NOWHERE);
@@ -125,8 +125,8 @@ fn numbered(held: impl Iterator<Item = bool>) -> Vec<u32> {
     held.map(number).collect()
 }
 
-/// Whether all ranks hold a node: those of contact surfaces and tied surfaces, around the ends
-/// of fibres, and tied to rigid bodies.
+/// `true` for nodes that all ranks hold: those of contact surfaces and tied surfaces, around the
+/// ends of fibres, and tied to rigid bodies.
 fn replicated(whole: &Frame, first_node: &[usize]) -> Vec<bool> {
     let mut replicated = vec![false; first_node[whole.model.bodies.len()]];
     let mut mark = |body: usize, node: NodeId| replicated[first_node[body] + node.index()] = true;

@@ -4,19 +4,19 @@ use striae_mesh::{Mesh, NodeId, sorted_face};
 
 use crate::{problem::Problem, share::Share};
 
-/// What a rank asks the others of a cut; nothing where it has the whole body. All functions are
-/// collective.
+/// Exchange of a cut with other ranks; nothing is exchanged if this rank has the whole body. All
+/// functions are collective.
 pub(super) struct Borders<'a> {
     shared: Option<(&'a Problem, usize)>,
 }
 
 impl<'a> Borders<'a> {
-    /// Those of a mesh that no other rank has a part of.
+    /// Borders of a mesh that no other rank has a part of.
     pub(super) fn of_whole() -> Self {
         Self { shared: None }
     }
 
-    /// Those of a body.
+    /// Borders of a body.
     pub(super) fn new(problem: &'a Problem, body: usize) -> Self {
         let is_shared = problem.share.holding().is_some();
         Self {
@@ -24,7 +24,7 @@ impl<'a> Borders<'a> {
         }
     }
 
-    /// What is so on any rank.
+    /// Flags that are set on any rank.
     pub(super) fn any_of<const N: usize>(&self, own: [bool; N]) -> Vec<bool> {
         match self.shared {
             None => own.to_vec(),
@@ -60,7 +60,7 @@ impl<'a> Borders<'a> {
     }
 }
 
-/// Faces that a rank tells of, as far as this one holds their nodes.
+/// Faces that a rank reports, as far as this one holds their nodes.
 fn local_faces(share: &Share, body: usize, told: &[u8]) -> Vec<[NodeId; 4]> {
     let numbers: Vec<NodeId> = (told.as_chunks().0.iter())
         .map(|bytes| NodeId(u32::from_le_bytes(*bytes)))

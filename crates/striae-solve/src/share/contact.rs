@@ -1,4 +1,4 @@
-//! Which rank adds the derivatives of which rows of contact.
+//! Assignment of rows of contact to ranks, which add their derivatives.
 //!
 //! All ranks hold the contact surfaces and have the same bits of positions, tractions and roles
 //! there, so that any of them can add any row. A division of the volume says little of where

@@ -1,13 +1,12 @@
-//! Who has which element, and who owns which node.
+//! Division of elements among ranks, and ownership of nodes.
 //!
-//! Elements of all bodies are the vertices of one graph that is divided into parts of about the
-//! same weight. Of an element that is its part of its nodes, each of which is shared out among
-//! its elements: rows of the system go with nodes, and so do, in meshes of any kind of cell, the
-//! work and the memory that their elements take, as kinds of which more meet at a node are
-//! smaller. Elements with three nodes or more in common are neighbours, by a face or by an edge
-//! with a node in its middle, and it costs so many nodes to have them on two ranks. Elements on
-//! both sides of a contact pair are no neighbours: as all ranks hold the contact surfaces, nothing
-//! is saved by that.
+//! Elements of all bodies are the vertices of one graph, which is divided into parts of about equal
+//! weight. The weight of an element is its share of its nodes, each node being divided equally
+//! among its elements: rows of the system belong to nodes, and so, in meshes of any kind of cell,
+//! do the work and memory of elements, as kinds that are smaller meet at a node in larger numbers.
+//! Elements with three or more common nodes are neighbours, by a face or by an edge with a midside
+//! node, and the number of common nodes is the cost of separating them. Elements on both sides of a
+//! contact pair are no neighbours: all ranks hold the contact surfaces, so nothing would be saved.
 
 use striae_mesh::{CellBlock, NodeId};
 use striae_sparse::{Neighbourhood, SolveError, divided};
@@ -19,7 +18,7 @@ const LEAST_COMMON: u8 = 3;
 /// Weight of a node: enough for parts of it to be about whole numbers.
 const NODE: f64 = 24.0;
 
-/// Who has which element, and who owns which node.
+/// Division of elements among ranks, and ownership of nodes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Division {
     ranks: usize,
@@ -49,10 +48,10 @@ impl Division {
         ))
     }
 
-    /// That of rank 0 for all ranks of a team.
+    /// Division that rank 0 makes for all ranks of a team.
     ///
     /// # Errors
-    /// When the library for graphs fails.
+    /// If the library for graphs fails.
     pub fn agreed(model: &Model, team: &dyn Team) -> Result<Self, SolveError> {
         let own = match team.rank() {
             0 => Some(Self::new(model, team.size())),
@@ -105,7 +104,7 @@ impl Division {
         }
     }
 
-    /// How many ranks there are.
+    /// Number of ranks.
     pub fn ranks(&self) -> usize {
         self.ranks
     }
@@ -126,7 +125,7 @@ impl Division {
     }
 }
 
-/// How many elements each body has.
+/// Number of elements of each body.
 fn counts(model: &Model) -> impl Iterator<Item = usize> {
     model.bodies.iter().map(|body| body.mesh.element_count())
 }

@@ -1,8 +1,8 @@
 //! Sums over the ranks that hold a node.
 //!
-//! Nodes that all ranks hold are summed by a reduction. For others each rank sends what it has
-//! to every other holder, and all of them add in the order of the ranks, so that they come to
-//! the same bits.
+//! Nodes that all ranks hold are summed by a reduction. For others each rank sends what it has to
+//! every other holder, and all of them add in the order of the ranks, so that they obtain the same
+//! bits.
 
 use striae_mesh::Vec3;
 
@@ -57,7 +57,7 @@ impl Border {
     }
 }
 
-/// What fields have at nodes, node by node.
+/// Values of fields at nodes, node by node.
 fn values(fields: &[&mut [Vec3]], nodes: &[GlobalNode]) -> Vec<f64> {
     let mut values = Vec::with_capacity(3 * fields.len() * nodes.len());
     for &node in nodes {

@@ -1,11 +1,11 @@
 //! Sums and largest values over all ranks, and over those that hold a node.
 //!
-//! What elements add up to at a node is a part of the whole, until it is
-//! [summed over the ranks](Share::sum_at_nodes) that hold the node. From there on they have the
-//! same bits of it, and so of contact, ties and rigid bodies, which follow from it and from what
-//! all ranks hold. In sums over nodes each one counts on the rank that owns it, in sums over
-//! elements each one is on one rank, and what all ranks have counts once. All functions are
-//! collective and leave values of a rank that is alone as they are.
+//! The sum of elements at a node is partial until it is [summed over the
+//! ranks](Share::sum_at_nodes) that hold the node. From there on they have identical bits of it,
+//! and so of contact, ties and rigid bodies, which follow from it and from replicated data. In sums
+//! over nodes each node counts on the rank that owns it, in sums over elements each element is on
+//! one rank, and data that all ranks have count once. All functions are collective and leave values
+//! unchanged if there is only one rank.
 
 use striae_mesh::Vec3;
 
@@ -42,12 +42,12 @@ impl Share {
         own
     }
 
-    /// Whether something is so on any rank.
+    /// Returns whether a flag is set on any rank.
     pub fn any(&self, own: impl Into<bool>) -> bool {
         self.largest(f64::from(u8::from(own.into()))) > 0.0
     }
 
-    /// The same of several things.
+    /// Returns for each of several flags whether it is set on any rank.
     pub fn any_of(&self, own: impl Iterator<Item = bool>) -> Vec<bool> {
         let mut flags: Vec<f64> = own.map(|own| f64::from(u8::from(own))).collect();
         self.team().largest(&mut flags);

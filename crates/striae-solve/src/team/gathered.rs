@@ -9,9 +9,9 @@ use striae_sparse::{
 
 use super::Team;
 
-/// Every rank gathers the whole system and solves it by LU: no rank needs a library for that,
-/// and what others solve can be held against it. It takes the time and memory of the whole
-/// system on every rank.
+/// Every rank gathers the whole system and solves it by LU: no rank needs a library for that, and
+/// other solvers can be compared with it. It takes the time and memory of the whole system on every
+/// rank.
 #[derive(Debug)]
 pub struct Gathered {
     team: Arc<dyn Team>,

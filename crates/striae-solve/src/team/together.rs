@@ -20,13 +20,13 @@ pub struct Together {
     table: Arc<Table>,
 }
 
-/// Where the ranks lay down what they give.
+/// Table on which the ranks place their contributions.
 struct Table {
     round: Mutex<Round>,
     complete: Condvar,
 }
 
-/// What has been given since all ranks had given something last.
+/// Parcels given since the last complete round.
 struct Round {
     number: u64,
     given: Vec<Option<Parcel>>,
@@ -35,7 +35,7 @@ struct Round {
     is_broken: bool,
 }
 
-/// What a rank gives.
+/// Contribution of a rank.
 #[derive(Debug)]
 enum Parcel {
     Bytes(Vec<u8>),
@@ -83,7 +83,7 @@ impl Together {
         results.into_iter().map(of_rank).collect()
     }
 
-    /// What all ranks give.
+    /// Contributions of all ranks.
     fn all(&self, own: Parcel) -> Arc<Vec<Parcel>> {
         self.table.all(self.rank, own)
     }

@@ -1,4 +1,4 @@
-//! Which part of each facet a tie would glue.
+//! Part of each facet that a tie would glue.
 
 use striae_contact::{configuration::Configuration, placement::Placement, side::Side, tie::join};
 use striae_mesh::{Face, Mesh, Vec3};

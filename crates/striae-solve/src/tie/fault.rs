@@ -1,8 +1,8 @@
-//! Ties that are none, in words.
+//! Faults of ties, with their messages.
 
 use striae_mesh::{ElementId, Vec3};
 
-/// Why a tie cannot hold.
+/// Reason why a tie cannot hold.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TieFault {
     /// A side is no surface of a body.
@@ -39,7 +39,7 @@ pub enum TieFault {
     },
     /// Facets that face each other from too far away.
     #[error(
-        "tie `{tie}`: at ({:.6}, {:.6}, {:.6}) `{a}` and `{b}` are {gap:.3e} apart, {:.0} % of the facet size. Mend the meshes, leave these facets out, or set `within` to the largest distance that is tied",
+        "tie `{tie}`: at ({:.6}, {:.6}, {:.6}) `{a}` and `{b}` are {gap:.3e} apart, {:.0} % of the facet size. Repair the meshes, leave these facets out, or set `within` to the largest distance to be tied",
         at.x, at.y, at.z, 100.0 * share
     )]
     Apart {
@@ -51,24 +51,24 @@ pub enum TieFault {
         b: String,
         /// Distance.
         gap: f64,
-        /// The same over the facet size.
+        /// Distance relative to the facet size.
         share: f64,
-        /// Where.
+        /// Position.
         at: Vec3,
     },
     /// No node is left that could follow.
     #[error(
-        "tie `{tie}` holds nothing: {reason}. Refine one of the surfaces, or leave facets that meet others out"
+        "tie `{tie}` holds nothing: {reason}. Refine one of the surfaces, or leave out facets that meet others"
     )]
     Loose {
         /// The tie.
         tie: String,
-        /// Why.
+        /// Reason.
         reason: &'static str,
     },
     /// Ties that follow each other in a circle.
     #[error(
-        "ties {} follow each other in a circle where they meet, and their rows say the same; make one of the surfaces finer than both it meets, or leave the facets at the common edge out of one tie",
+        "ties {} depend on each other in a cycle where they meet, and their equations are redundant; make one of the surfaces finer than the two it meets, or leave the facets at the common edge out of one tie",
         quoted(ties)
     )]
     Circle {
@@ -77,14 +77,14 @@ pub enum TieFault {
     },
     /// Moving nodes would turn an element inside out.
     #[error(
-        "tie `{tie}`: moving the nodes of `{body}` by up to {moved:.3e} onto the other surface would turn {element} inside out; refine the surfaces where they are curved, or mend the mesh"
+        "tie `{tie}`: moving the nodes of `{body}` by up to {moved:.3e} onto the other surface would turn {element} inside out; refine the surfaces where they are curved, or repair the mesh"
     )]
     Inverted {
         /// The tie.
         tie: String,
         /// The body.
         body: String,
-        /// How far nodes are moved.
+        /// Distance that nodes are moved.
         moved: f64,
         /// The first such element.
         element: ElementId,

@@ -1,4 +1,4 @@
-//! Nodes that follow nodes that follow: their order, and what they come to follow.
+//! Order of nodes that depend on dependent nodes, and their resolved dependence.
 //!
 //! Rows of nodes that follow each other in a circle, as at a seam under which the facets of
 //! a third body reach from one neighbour to the other, are solved together,
@@ -27,7 +27,7 @@ pub(super) struct Group {
 }
 
 impl Group {
-    /// What the rows take, `t`, from the forces on the members.
+    /// Multipliers of the rows, `t`, from the forces on the members.
     pub(super) fn taken(&self, forces: Vec<f64>) -> Vec<f64> {
         match &self.inverse {
             Some(inverse) => {
@@ -43,10 +43,10 @@ impl Group {
 /// that it follows.
 type Resolved = (Vec<Follower>, [Vec<Group>; 3]);
 
-/// What the members of a group come to follow, after the inverse.
+/// Inverse of a group, and nodes that each of its members depends on.
 type Solved = (Option<DMatrix<f64>>, Vec<Vec<(GlobalNode, f64)>>);
 
-/// Finds what followers come to follow.
+/// Resolves the dependence of followers on each other.
 pub(super) fn resolved(
     model: &Model,
     mut followers: Vec<Follower>,
@@ -100,8 +100,8 @@ fn followed(
     followers.iter().map(of_one).collect()
 }
 
-/// What the members of a group come to follow, with the inverse; `None` where their rows
-/// contradict or repeat each other.
+/// Nodes that each member of a group depends on, with the inverse; `None` if their rows contradict
+/// or repeat each other.
 fn solved(
     followers: &[Follower],
     of_node: &BTreeMap<GlobalNode, usize>,

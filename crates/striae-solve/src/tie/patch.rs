@@ -21,7 +21,7 @@ use crate::node::GlobalNode;
 /// Areas of the nodes of a side of a tie, by component: what of it is tied in the component.
 pub type NodalAreas = BTreeMap<GlobalNode, [f64; 3]>;
 
-/// What a facet that follows has in common with the other side.
+/// Common area of a dependent facet and the other side.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Patch {
     /// Its corners.
@@ -33,8 +33,8 @@ pub(super) struct Patch {
 }
 
 impl Patch {
-    /// That of the rows of a facet; `global` tells the nodes of the facet's side and of the
-    /// other one, `follows` whether a node does in a component.
+    /// Patch of the rows of a facet; `global` numbers the nodes of the facet's side and of the
+    /// other one, `follows` tells whether a node is dependent in a component.
     pub(super) fn new(
         facet: &FacetRows,
         global: [&[GlobalNode]; 2],
@@ -56,7 +56,7 @@ impl Patch {
         }
     }
 
-    /// The same with other numbers of nodes.
+    /// Copy with other node numbers.
     pub(super) fn renumbered(self, number: impl Fn(GlobalNode) -> GlobalNode) -> Self {
         let areas = self.areas.map(|of_side| {
             let areas = of_side.into_iter();

@@ -6,8 +6,8 @@ use super::{Follower, Joint, Ties, Weights};
 use crate::node::GlobalNode;
 
 impl Ties {
-    /// The same ties where nodes have other numbers, in the same order: `number` of global nodes,
-    /// of which there are `count`, `in_mesh` of nodes of the mesh of a body.
+    /// Ties for a mesh whose nodes have other numbers in unchanged order: `number` maps global
+    /// nodes, of which there are `count`, `in_mesh` nodes of the mesh of a body.
     pub(crate) fn renumbered(
         self,
         count: usize,

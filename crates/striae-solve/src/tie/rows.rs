@@ -20,7 +20,7 @@ use crate::node::GlobalNode;
 const LEAST_COVER: f64 = 0.3;
 /// Weights that are round-off.
 const ROUND_OFF: f64 = 1e-12;
-/// Relative difference of weights of rows that is none.
+/// Relative difference of weights of rows that counts as zero.
 const SAME: f64 = 1e-6;
 
 /// The two surfaces of a tie.
@@ -34,11 +34,11 @@ pub(super) struct Sides {
     joined: Joined,
     /// Rows of the facets that follow, in surface-local nodes.
     facets: [Vec<FacetRows>; 2],
-    /// What of them is tied.
+    /// Tied areas.
     patches: Vec<Patch>,
 }
 
-/// What each component of each node may do.
+/// Restraint of each component of each node.
 struct Bound {
     /// By component, three a node.
     prescribed: Vec<bool>,
@@ -106,7 +106,7 @@ impl Sides {
         })
     }
 
-    /// What is known of the tie.
+    /// Description of the tie.
     pub(super) fn joint(self) -> Joint {
         let cover = Side::BOTH.map(|side| {
             let facets = self.joined.cover[side].iter().zip(&self.joined.areas[side]);
@@ -126,7 +126,7 @@ impl Sides {
         }
     }
 
-    /// What is tied, where nodes keep rows of components.
+    /// Tied areas, for nodes that keep rows of components.
     fn patches(&self, keeps: impl Fn(GlobalNode, usize) -> bool) -> Vec<Patch> {
         let global = [self.follows, self.follows.opposite()].map(|side| &self.nodes[side][..]);
         let facets = self.facets[self.follows].iter();
@@ -212,8 +212,8 @@ pub(super) fn rows(
             faults.push(TieFault::Loose {
                 tie: model.ties[tie].name.clone(),
                 reason: match of_tie.candidates(of_tie.follows, &bound).is_empty() {
-                    true => "all its nodes are prescribed, held by rigid bodies or hardly covered",
-                    false => "all its nodes that could follow are those of other ties",
+                    true => "all its nodes are prescribed, tied to rigid bodies or hardly covered",
+                    false => "all nodes that it could tie belong to other ties",
                 },
             });
         }
@@ -295,7 +295,7 @@ fn sums(sides: &Sides, keeps: impl Fn(GlobalNode) -> bool) -> BTreeMap<GlobalNod
 }
 
 impl Sum {
-    /// What the node follows, without round-off; the weights add up to one.
+    /// Nodes that the node depends on, cleaned from round-off; the weights add up to one.
     fn weights(mut self, node: GlobalNode) -> Vec<(GlobalNode, f64)> {
         let own = self.own.remove(&node).unwrap_or(1.0);
         for (other, weight) in self.own {
@@ -336,7 +336,7 @@ pub(super) fn contact_pair(sides: [(&Mesh, &[Face]); 2], within: Option<f64>) ->
     }
 }
 
-/// Why surfaces do not meet, if they do not.
+/// Reason why surfaces do not meet, if they do not.
 fn unmet(
     model: &Model,
     tie: &str,

@@ -1,4 +1,4 @@
-//! Which side of a tie follows, whatever its name and number.
+//! Choice of the dependent side of a tie, independent of names and numbers.
 //!
 //! The side with the finer facets follows, as its functions resolve more. Of two as fine, it
 //! is that of the body that comes first by the mean place of its nodes, by `x`, `y`, `z`,
@@ -9,7 +9,7 @@ use std::cmp::Ordering;
 use striae_contact::{side::Side, tie::Joined};
 use striae_mesh::{Mesh, Vec3};
 
-/// Relative difference that is none.
+/// Relative difference that counts as zero.
 const SAME: f64 = 1e-6;
 
 /// The side that follows.
@@ -38,7 +38,7 @@ fn compared(a: f64, b: f64, scale: f64) -> Ordering {
     }
 }
 
-/// Where the nodes of a body are.
+/// Spread of the nodes of a body.
 struct Spread {
     centre: Vec3,
     radius: f64,

@@ -5,18 +5,18 @@ use striae_mesh::{MeshError, Vec3};
 use super::{TieFault, Ties, body_node, first_nodes};
 use crate::model::Model;
 
-/// Most times that rows are found anew.
+/// Largest number of times that rows are found again.
 const MOST: usize = 10;
 /// Way over what positions are made of that is round-off: nodes stay.
 const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
 
 /// The model with the nodes that follow moved to where they belong, which says how far.
 ///
-/// Rows are found anew where nodes have come to, until nothing moves, so that a model that
-/// has been placed stays as it is.
+/// Rows are found again for the new positions until nothing moves, so that a model that has been
+/// placed stays unchanged.
 ///
 /// # Errors
-/// All ties that are none.
+/// All invalid ties.
 pub fn placed(mut model: Model) -> Result<Model, Vec<TieFault>> {
     if model.ties.is_empty() {
         return Ok(model);

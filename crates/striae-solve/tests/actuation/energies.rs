@@ -1,4 +1,4 @@
-//! Where the work of actuation goes.
+//! Balance of the work of actuation.
 
 use nalgebra::Matrix3;
 use striae_law::bulk::{

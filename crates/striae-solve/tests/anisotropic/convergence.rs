@@ -9,7 +9,7 @@ use crate::{
 };
 use striae_mesh::{Mesh, generate::CappedBlock};
 
-/// That of decks that state none.
+/// Default of decks.
 const TOLERANCE: f64 = 1e-10;
 
 /// Iterations after the tolerance. What it leaves of the residual comes back larger in the

@@ -1,5 +1,5 @@
-//! Anisotropic friction between textured surfaces, held against closed forms,
-//! invariances and finite differences.
+//! Anisotropic friction between textured surfaces, compared with closed forms, invariances and
+//! finite differences.
 
 mod dissipation;
 mod oblique;

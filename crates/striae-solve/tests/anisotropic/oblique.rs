@@ -202,7 +202,7 @@ impl Oblique {
         self.model_on(block, crate::scene::plane([0.0; 3], [0.0, 0.0, 1.0]))
     }
 
-    /// The same on any flat floor.
+    /// Model on any flat floor.
     pub fn model_on(&self, block: &Block, floor: RigidShape) -> Model {
         let mut model = model(vec![body("block", block.mesh().unwrap(), material())]);
         model.touch_rigid(("block", "zmin"), floor, self.law.friction());
@@ -233,7 +233,7 @@ impl Sliding {
         step
     }
 
-    /// What the sides of a block bear.
+    /// Loads on the sides of a block.
     pub fn on_sides(&self, model: &Model, body: &str) -> Vec<Load> {
         let first_piola = self.gradient.determinant()
             * self.stress

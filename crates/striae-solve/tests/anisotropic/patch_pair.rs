@@ -20,7 +20,7 @@ use striae_mesh::{
 use striae_solve::model::{BodyId, Curve, Displacement, LoadExtent, LoadKind, Model, Step};
 
 const HEIGHT: f64 = 0.4;
-/// How far the upper body slides.
+/// Distance that the upper body slides.
 const WAY: f64 = 0.05;
 
 /// The bodies at rest; side `a` is the upper one, as the laws are written for it.
@@ -38,7 +38,7 @@ fn at_rest(oblique: &Oblique, cells: [CellKind; 2]) -> Model {
     model
 }
 
-/// Where the nodes of a body are, the upper one at `place`.
+/// Positions of the nodes of a body, the upper one at `place`.
 fn moved(sliding: &Sliding, body: usize, x: &Vec3, place: Vector2<f64>) -> Vec3 {
     sliding.gradient * x + place.push(0.0) * body as f64
 }

@@ -188,7 +188,7 @@ fn dragged(body_block: &Block, law: Formula, turn: &Turn, floor: RigidShape) -> 
     model
 }
 
-/// Where a scene is looked at from.
+/// Rotation of the frame in which a scene is described.
 struct Turn {
     rotation: nalgebra::Rotation3<f64>,
     textures: [Option<f64>; 2],

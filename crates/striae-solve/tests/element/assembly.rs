@@ -45,7 +45,7 @@ impl Block {
         Self { mesh, reference }
     }
 
-    /// Whether an unknown belongs to a node on the surface of the cube.
+    /// Returns whether an unknown belongs to a node on the surface of the cube.
     pub(crate) fn on_boundary(&self, unknown: usize) -> bool {
         let position = self.mesh.positions[unknown / 3];
         position.iter().any(|&x| x == 0.0 || x == 1.0)

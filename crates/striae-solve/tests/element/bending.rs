@@ -14,7 +14,7 @@ use striae_element::Formulation;
 use striae_law::bulk::{LameConstants, Material};
 use striae_mesh::{CellKind, Vec3, generate};
 
-/// What holds a node besides the end that is built in.
+/// Restraint of a node besides the clamped end.
 #[derive(Clone, Copy, PartialEq)]
 enum Depth {
     Free,
@@ -94,7 +94,7 @@ fn cook(
     [rise(30.0), rise(38.0)]
 }
 
-/// What is missing of the known rise with so many divisions.
+/// Deviation from the known deflection with so many divisions.
 fn missing(divisions: [usize; 2], cells: CellKind, formulation: [Formulation; 2]) -> [[f64; 2]; 2] {
     let [compressible, rubber] = formulation.map(|formulation| (cells, formulation));
     [

@@ -75,7 +75,7 @@ fn points(kind: CellKind) -> Vec<(Vec3, f64)> {
     points.collect()
 }
 
-/// Those of the linear tetrahedra that a composite one is made of.
+/// Points of the linear tetrahedra that a composite one consists of.
 fn points_of_parts() -> Vec<(Vec3, f64)> {
     let corners = CellKind::CompositeTetrahedron.shape().corners.iter();
     let mut nodes: Vec<Vec3> = corners.map(|x| Vec3::from(*x)).collect();

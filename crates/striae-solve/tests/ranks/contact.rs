@@ -17,7 +17,7 @@ fn two_blocks(mu: f64) -> Model {
     two_blocks_of(CellKind::Hexahedron, coulomb(mu))
 }
 
-/// The same, the smaller one of other elements.
+/// Two blocks, the smaller one of other elements.
 fn two_blocks_of(cells: CellKind, friction: Friction) -> Model {
     let lower = block([0.0; 3], [1.0, 1.0, 0.5], [4, 4, 2]).mesh().unwrap();
     let upper = Block {

@@ -1,4 +1,4 @@
-//! What fails on one rank ends or cuts increments on all.
+//! Failures on one rank, which end or cut increments on all.
 
 use striae_mesh::Vec3;
 use striae_solve::model::{LoadExtent, LoadKind, Model};
@@ -48,7 +48,7 @@ fn what_nothing_holds_is_named_by_all() {
     pull.loads = vec![model.load("bar", "zmax", traction, LoadExtent::Whole)];
     model.steps = vec![pull];
     let told = assert_same(&model);
-    assert!(told.ending.contains("is not held"), "{}", told.ending);
+    assert!(told.ending.contains("is not restrained"), "{}", told.ending);
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! What a run tells, on one rank or several, and how far two of them are apart.
+//! Output of a run, on one rank or several, and the distance between two outputs.
 
 use std::sync::Arc;
 
@@ -19,23 +19,23 @@ use striae_solve::{
     warning::Judgement,
 };
 
-/// How far numbers may be apart, over the largest one of their kind.
+/// Largest difference of two numbers, relative to the largest one of their kind.
 const CLOSE: f64 = 1e-8;
 
-/// What a run tells.
+/// Output of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Told {
     pub ending: String,
     /// Iterations of every increment, and where it ended.
     pub increments: Vec<(usize, f64)>,
-    /// Why increments were cut.
+    /// Reasons why increments were cut.
     pub cuts: Vec<String>,
     /// Names of numbers that belong together, and the numbers.
     pub numbers: Vec<(String, Vec<f64>)>,
     pub warnings: Vec<String>,
 }
 
-/// What a rank tells, and where its nodes are by their numbers in the whole.
+/// Output of a rank, and positions of its nodes by their numbers in the whole.
 type OfRank = (Told, Vec<(usize, Vec3)>);
 
 #[derive(Default)]
@@ -70,8 +70,8 @@ impl Observer for Record {
     }
 }
 
-/// What a model tells on one rank, by a solver that does not correct contact on its own either:
-/// iterations are those of Newton's method then.
+/// Output of a model on one rank, with a solver that does not correct contact either, so that all
+/// iterations are those of Newton's method.
 pub fn alone(model: &Model) -> OfRank {
     let mut model = model.clone();
     model.solver.backend = Backend::Multifrontal;
@@ -79,7 +79,7 @@ pub fn alone(model: &Model) -> OfRank {
     told(&problem, None)
 }
 
-/// What it tells on several.
+/// Output of a model on several ranks.
 pub fn together(model: &Model, ranks: usize) -> Vec<OfRank> {
     let division = Division::new(model, ranks).unwrap();
     Together::run(ranks, |team| {
@@ -173,7 +173,7 @@ fn numbers(problem: &Problem, state: &State) -> Vec<(String, Vec<f64>)> {
     all
 }
 
-/// Asserts that a model tells on two, three and four ranks what it tells on one.
+/// Asserts that the output of a model on two, three and four ranks is that on one.
 pub fn assert_same(model: &Model) -> Told {
     let (expected, positions) = alone(model);
     for ranks in 2..=4 {

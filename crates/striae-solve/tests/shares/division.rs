@@ -1,4 +1,4 @@
-//! Who has which element, and who owns which node.
+//! Division of elements among ranks, and ownership of nodes.
 
 use striae_solve::{share::Division, team::Together};
 

@@ -14,7 +14,7 @@ use striae_solve::{
 use striae_sparse::{LinearOperator, Structure, Supervariable};
 use striae_surface::node::SurfaceNode;
 
-/// What a problem comes to.
+/// Evaluation of a problem.
 pub struct Evaluated {
     pub layout: Layout,
     pub assembled: Assembled,

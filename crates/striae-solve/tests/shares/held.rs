@@ -1,4 +1,4 @@
-//! What ranks hold, and what of the whole it is.
+//! Shares of ranks, compared with the whole.
 
 use std::collections::BTreeMap;
 

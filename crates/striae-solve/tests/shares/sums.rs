@@ -1,4 +1,4 @@
-//! What shares add up to, beside the whole.
+//! Sums over shares, compared with the whole.
 
 use striae_solve::{
     dynamics::{kinetic_energy, mass_times},

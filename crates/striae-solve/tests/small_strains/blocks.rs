@@ -22,7 +22,7 @@ use striae_surface::node::SurfaceNode;
 
 use crate::reference::Case;
 
-/// What is compared at the end of an increment.
+/// Quantities compared at the end of an increment.
 pub struct Faces {
     /// Kept nodes by side.
     pub kept: [Vec<usize>; 2],

@@ -16,7 +16,7 @@ use striae_mesh::Vec3;
 
 /// The largest depth; the others are its halves.
 const DEPTH: f64 = 1e-5;
-/// How many depths there are.
+/// Number of depths.
 const DEPTHS: usize = 5;
 /// Part of the largest value to which the limits agree: where supports are partly closed, points
 /// open and close as the depth is halved.

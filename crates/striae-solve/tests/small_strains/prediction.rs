@@ -5,7 +5,7 @@ use striae_solve::{assembly::StepContext, problem::Problem, state::State};
 
 use crate::{blocks::model, reference::cases};
 
-/// Where nothing is predicted to move, the prediction changes no role, pivot or weight.
+/// Without predicted motion, the prediction changes no role, pivot or weight.
 #[test]
 fn a_prediction_without_motion_changes_nothing() {
     for case in cases() {

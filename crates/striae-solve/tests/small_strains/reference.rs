@@ -12,17 +12,17 @@ pub struct Case {
     pub ratio: f64,
     /// Coefficient of friction.
     pub mu: f64,
-    /// Where the punch begins.
+    /// Start of the punch.
     pub origin: [f64; 2],
-    /// What follows.
+    /// Increments that follow.
     pub increments: Vec<Increment>,
 }
 
 /// An increment and where it leads.
 pub struct Increment {
-    /// Displacement of the top of the punch: a whole part, and one over the depth.
+    /// Displacement of the top of the punch: the part that does not scale with the depth.
     pub shift: [f64; 2],
-    /// That one.
+    /// Displacement over the depth.
     pub rate: [f64; 3],
     /// Kept nodes by side.
     pub kept: [Vec<usize>; 2],

@@ -17,14 +17,14 @@ use striae_solve::assembly::StepContext;
 use striae_surface::node::SurfaceNode;
 use striae_verify::{Difference, Random, derivative::directional};
 
-/// Where all nodes of a model and its rigid surface are.
+/// Positions of all nodes of a model and its rigid surface.
 #[derive(Clone)]
 pub struct Places {
     pub positions: Vec<Vec3>,
     pub placement: Placement,
 }
 
-/// What the nodes of a state are to do.
+/// Status wanted for the nodes of a state.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Wanted {
     /// One in three each is open, sticks and slips.
@@ -56,7 +56,7 @@ pub struct PairFunction<'a> {
     tau_n: [Vec<[f64; 2]>; 2],
     /// Status in the iteration before, by kept node.
     pub before: Vec<Status>,
-    /// Which positions are prescribed.
+    /// Positions that are prescribed.
     pub prescribed: Prescribed,
     pub selection: Selection,
     pub iteration: Iteration,
@@ -191,7 +191,7 @@ impl<'a> PairFunction<'a> {
         self.found(wanted).expect("some node slips")
     }
 
-    /// The same; `None` where no node can be made to slip.
+    /// Positions with the wanted status; `None` if no node can be made to slip.
     pub fn found(&self, wanted: Wanted) -> Option<DVector<f64>> {
         let mut placed = PRESSURES.iter().map(|&pressure| {
             let mut u = self.placed(wanted, pressure);

@@ -1,4 +1,4 @@
-//! Models and the two configurations between which their contact is looked at.
+//! Models and the two configurations between which their contact is evaluated.
 
 use nalgebra::Rotation3;
 use striae_contact::placement::Placement;
@@ -41,7 +41,7 @@ pub fn two_blocks(moduli: [f64; 2], divisions: [usize; 2], friction: Friction) -
     two_blocks_of([CellKind::Hexahedron; 2], moduli, divisions, friction)
 }
 
-/// The same of other cells.
+/// Two blocks of other cells.
 pub fn two_blocks_of(
     cells: [CellKind; 2],
     moduli: [f64; 2],
@@ -94,7 +94,7 @@ pub fn dome(corners: usize) -> RigidShape {
     bumps(corners, 0.1)
 }
 
-/// The same with bumps of another height.
+/// Surface with bumps of a given height.
 pub fn bumps(corners: usize, height: f64) -> RigidShape {
     let count = 4;
     let positions = (0..(count + 1) * (count + 1)).map(|k| {

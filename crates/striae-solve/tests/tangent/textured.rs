@@ -77,7 +77,7 @@ fn slid(problem: &Problem) -> [Places; 2] {
     })
 }
 
-/// Checks a model as it is, with friction that decays with the slip rate and with friction that
+/// Checks a model unchanged, with friction that decays with the slip rate and with friction that
 /// depends on both pressure and slip rate.
 fn check(name: &str, mut model: Model) {
     model.steps.push(step());

@@ -133,7 +133,7 @@ impl<'a> Whole<'a> {
     }
 
     /// Without derivatives rows and results are the same to the last bit, and the tangent stays
-    /// as it is.
+    /// unchanged.
     fn assert_rows_alone(&self, u: &DVector<f64>, whole: &Assembled, tangent: &Tangent) {
         let mut kept = tangent.clone();
         let alone = self.filled(u, Derivatives::None, &mut kept);
@@ -150,7 +150,7 @@ impl<'a> Whole<'a> {
         assert_eq!(kept.contact, tangent.contact);
     }
 
-    /// The same with all but contact linearised at `u`.
+    /// Asserts the order with everything but contact linearised at `u`.
     pub fn assert_order_of_contact(&self) {
         let u = self.unknowns();
         let (assembled, tangent) = self.evaluated(&u);

@@ -11,7 +11,7 @@ use crate::scene::{Places, Run, block, body, coulomb, increments, model, rubber,
 const RATIO: f64 = 50.0;
 /// Element size of the cap, which is not finer than this.
 const FINE: f64 = 0.05;
-/// How deep the cap is pressed.
+/// Depth to which the cap is pressed.
 const DEPTH: f64 = 0.004;
 
 /// A cap of radius 1 with elements of a size that is pressed on a block with five facets along
@@ -53,8 +53,8 @@ fn force(run: &Run) -> f64 {
     forces.iter().map(|force| force.z).sum()
 }
 
-/// How deep the lowest node of the cap is below the nearest nodes of the block, which are
-/// the corners of one facet.
+/// Depth of the lowest node of the cap below the nearest nodes of the block, which are the corners
+/// of one facet.
 fn depth(run: &Run) -> f64 {
     let lowest = run
         .positions(0)

@@ -1,9 +1,8 @@
 //! Friction that falls with the slip rate, faster than the bodies can follow.
 //!
-//! Where `p (mu_s - mu_k)/(v_d dt)` is larger than the stiffness of the body, friction of a
-//! node that begins to slip falls faster than the force that the body holds it with: the
-//! residual rises with slip before it falls, and a tangent at rest leads away from the
-//! solution.
+//! If `p (mu_s - mu_k)/(v_d dt)` is larger than the stiffness of the body, friction of a node that
+//! begins to slip falls faster than the force that the body holds it with: the residual rises with
+//! slip before it falls, and a tangent at rest leads away from the solution.
 
 use crate::scene::{
     Places, Run, block, body, coulomb, increments, model, pressed_on_plane, rubber, step,

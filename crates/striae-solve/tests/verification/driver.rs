@@ -198,7 +198,7 @@ fn a_body_that_nothing_holds_is_named() {
     model.steps = vec![step];
     let run = Run::of(model);
     let said = reason(&run).to_string();
-    assert!(said.contains("body `cube` is not held"), "{said}");
+    assert!(said.contains("body `cube` is not restrained"), "{said}");
 }
 
 #[test]

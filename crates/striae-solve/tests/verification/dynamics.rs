@@ -196,7 +196,7 @@ fn impulses_of_contact_and_weight_change_the_momentum() {
     assert!(largest > 1.0, "it touches the plane");
 }
 
-/// What the method takes out of a linear system in an increment, by its closed form:
+/// Energy that the method dissipates from a linear system in an increment, in closed form:
 ///
 /// ```text
 /// (1/2 - a_f) (d . df + dt v . M da) + dt^2 (beta - gamma/2) da . M a_alpha

@@ -1,8 +1,8 @@
-//! Friction that is switched on, off and on again between steps starts anew.
+//! Friction that is switched on, off and on again between steps starts from zero.
 //!
-//! Friction is an unknown that is held by where the surfaces were at the end of the
-//! last increment. Without friction it vanishes, and the bodies relax; what comes
-//! after starts from no traction at the places where they have come to rest.
+//! Friction is an unknown that refers to the positions at the end of the last increment. Without
+//! friction it vanishes, and the bodies relax; later friction starts without traction at the
+//! positions of rest.
 
 use crate::scene::{
     Places, Run, block, body, coulomb, increments, largest_distance, model, plane, rubber, step,

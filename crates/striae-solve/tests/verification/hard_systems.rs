@@ -31,7 +31,7 @@ fn blocks([first, second]: [Material; 2], width: f64, gap: f64) -> Model {
     model
 }
 
-/// The same, with the upper block's top moved; the iterative solver is held against the LU too.
+/// Run with the upper block's top moved; the iterative solver is compared with the LU, too.
 fn pressed(materials: [Material; 2], width: f64, gap: f64, to: [f64; 3]) -> Run {
     let mut model = blocks(materials, width, gap);
     let top = model.hold("upper", "zmax", to.map(Some));

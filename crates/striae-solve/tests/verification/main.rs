@@ -1,4 +1,4 @@
-//! Whole problems held against closed forms, invariances and each other.
+//! Whole problems compared with closed forms, invariances and each other.
 
 #[allow(dead_code, reason = "shared with the tests of textured friction")]
 mod scene;

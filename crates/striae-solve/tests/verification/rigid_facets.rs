@@ -6,7 +6,7 @@ use crate::scene::{
 use striae_mesh::{NodeId, Vec3};
 use striae_solve::model::{Model, RigidShape};
 
-/// How a square grid of rigid facets is divided.
+/// Division of a square grid of rigid facets.
 #[derive(Clone, Copy)]
 enum Division {
     Quadrilaterals,

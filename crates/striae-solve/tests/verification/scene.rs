@@ -30,11 +30,11 @@ pub struct Run {
     pub states: Vec<State>,
     /// Norms of all iterations of every increment.
     pub iterations: Vec<Vec<Norms>>,
-    /// What the linear systems of every increment took.
+    /// Work spent on the linear systems of every increment.
     pub work: Vec<LinearWork>,
-    /// What came inside or through in every increment, by pair.
+    /// Interferences of every increment, by pair.
     pub interferences: Vec<Vec<Vec<Interference>>>,
-    /// Where every increment ended.
+    /// Ends of all increments.
     pub progress: Vec<Progress>,
     /// Failed attempts: where they were to end and why they failed.
     pub cuts: Vec<(Progress, CutBack)>,
@@ -278,7 +278,7 @@ pub fn increments(size: f64, smallest: f64) -> Increments {
     }
 }
 
-/// Where things are in a model.
+/// Positions of parts of a model.
 pub trait Places {
     fn body(&self, name: &str) -> usize;
     fn nodes(&self, body: &str, set: &str) -> Vec<NodeId>;

@@ -1,4 +1,4 @@
-//! Bodies that touch themselves, held against pairs of their walls and closed forms.
+//! Bodies that touch themselves, compared with pairs of their walls and closed forms.
 
 use striae_contact::{side::Side, unknowns::Status};
 use striae_law::friction::Friction;

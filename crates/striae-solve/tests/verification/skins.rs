@@ -90,7 +90,7 @@ fn a_body_does_not_go_through_itself_without_a_word() {
     assert_eq!([body.as_str(), other], ["jaw"; 2]);
     assert_eq!((*start, reason.remedy()), (Start::Inside, Remedy::None));
     assert!(
-        reason.to_string().contains("goes through itself"),
+        reason.to_string().contains("passes through itself"),
         "{reason}"
     );
     let found = warnings(&run);

@@ -210,7 +210,7 @@ fn convergence_ends_quadratically() {
     assert!(told > 0, "{:?}", run.iterations);
 }
 
-/// They share a tangent, so each shrinks the residual by the same part.
+/// The corrections share a tangent, so each reduces the residual by the same factor.
 #[test]
 fn late_corrections_converge_as_fast_as_they_are_taken_to() {
     let tangents = |further| {

@@ -56,8 +56,8 @@ fn stacked(gap: f64) -> Model {
     model
 }
 
-/// What is common to all stabilised runs: they come to the end, the energy balances, forces
-/// are opposite, and nothing is left of them at the end of the step.
+/// Asserts the properties common to all stabilised runs: they complete, energy is balanced, forces
+/// are opposite, and no stabilising force remains at the end of the step.
 fn assert_lawful(run: &Run) {
     let said: Vec<String> = run.cuts.iter().map(|(_, cut)| cut.to_string()).collect();
     assert_eq!(run.ending, Ending::Completed, "{}\n{said:#?}", run.ending);

@@ -83,7 +83,7 @@ impl<const R: usize, const C: usize> Blocks<R, C, f64> {
         self.values.extend(below.values);
     }
 
-    /// The same in single precision.
+    /// Copy in single precision.
     pub fn rounded(&self) -> Blocks<R, C, f32> {
         Blocks {
             starts: self.starts.clone(),

@@ -22,7 +22,7 @@ const PIECE: usize = 2048;
 /// Degree of the smoothing polynomial.
 const DEGREE: usize = 2;
 
-/// What the next level is made of.
+/// Data from which the next level is built.
 pub(crate) struct Coarser {
     pub(crate) matrix: Blocks<MODES, MODES, f64>,
     pub(crate) near_kernel: Vec<f64>,
@@ -156,7 +156,7 @@ impl<const N: usize> Level<N> {
         })
     }
 
-    /// Whether there is no coarser level.
+    /// Returns whether there is no coarser level.
     pub(crate) fn is_last(&self) -> bool {
         self.prolongator.starts.is_empty()
     }
@@ -265,7 +265,7 @@ impl<const N: usize> Level<N> {
     }
 }
 
-/// What is known of the solution before smoothing.
+/// Knowledge of the solution before smoothing.
 #[derive(Clone, Copy, PartialEq)]
 enum Start {
     Zero,

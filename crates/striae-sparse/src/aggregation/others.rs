@@ -1,14 +1,15 @@
-//! What the holder of some rows of a level asks of those who hold the others.
+//! Interface by which the holder of some rows of a level exchanges values with the holders of the
+//! others.
 
-/// Who holds the other rows.
+/// Holders of the other rows.
 ///
-/// Vectors of a level have this part's own nodes first, then those of others that its rows
-/// name; vectors of the next level alike.
+/// Vectors of a level list this part's own nodes first, then those of others that its rows refer
+/// to; so do vectors of the next level.
 pub trait Others {
     /// Puts the values that others' nodes have in their places.
     fn fetch(&mut self, x: &mut [f32]);
 
-    /// The same on the next level.
+    /// Fetches the values of others' nodes on the next level.
     fn fetch_coarse(&mut self, x: &mut [f32]);
 
     /// Adds what stands in the places of others on the next level to their own values.

@@ -25,7 +25,7 @@ impl<const N: usize> Packed<N> {
     /// Length of a column of a block.
     const HEIGHT: usize = N.div_ceil(LANES) * LANES;
 
-    /// The same values, rounded.
+    /// Packs the values, rounded to single precision.
     pub(crate) fn of(matrix: &Blocks<N, N, f64>) -> Self {
         let size = N * Self::HEIGHT;
         let mut values = vec![0.0; matrix.count() * size];

@@ -16,7 +16,7 @@ pub use super::aggregates::NONE;
 pub struct Coarsening {
     /// Aggregate of every node, [`NONE`] where smoothing alone does.
     pub aggregates: Vec<u32>,
-    /// How many there are.
+    /// Number of aggregates.
     pub count: usize,
     /// Orthonormal columns on every aggregate, `N` rows by six a node.
     pub columns: Vec<f64>,
@@ -90,8 +90,8 @@ impl<const N: usize> SharedLevel<N> {
         self.0.interpolation(matrix, &aggregates, &tentative)
     }
 
-    /// What these rows add to the matrix of the next level, from the interpolation at their
-    /// nodes and at those that others have. Numbers of aggregates are below `count`.
+    /// Contribution of these rows to the matrix of the next level, from the interpolation at their
+    /// nodes and at those that others hold. Numbers of aggregates are below `count`.
     pub fn coarsen(
         &mut self,
         matrix: Blocks<N, N, f64>,

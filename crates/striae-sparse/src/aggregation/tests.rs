@@ -107,7 +107,7 @@ fn a_nearly_incompressible_block_takes_more_but_not_many() {
     assert!(count <= 45, "{count}");
 }
 
-/// Whether no aggregate has nodes of two parts.
+/// Returns whether no aggregate has nodes of two parts.
 fn are_of_one_part(aggregates: &Aggregates, parts: &[u32]) -> bool {
     let own = aggregates.parts(parts);
     let mut pairs = aggregates.of.iter().zip(parts);

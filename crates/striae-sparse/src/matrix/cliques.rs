@@ -12,10 +12,10 @@ use std::ops::Range;
 
 /// Members of cliques for one thread at a time.
 const MEMBERS: usize = 128;
-/// What stands for a block outside the pattern.
+/// Marker of a block outside the pattern.
 const NOWHERE: u32 = u32::MAX;
 
-/// Where the blocks between the members of cliques belong in the matrices of a structure.
+/// Positions of the blocks between the members of cliques in the matrices of a structure.
 #[derive(Clone, Debug)]
 pub struct CliquePlaces {
     /// Members of each clique.
@@ -37,7 +37,7 @@ pub struct Member {
     pub clique: usize,
     /// Place in the clique.
     pub slot: usize,
-    /// What stands there.
+    /// Supervariable at this position.
     pub supervariable: Supervariable,
 }
 
@@ -88,7 +88,7 @@ impl CliquePlaces {
         places
     }
 
-    /// Finds the places anew, for another structure of the same supervariables.
+    /// Finds the places again, for another structure of these supervariables.
     pub fn find(&mut self, structure: &Structure) {
         let size = self.size;
         self.columns.resize(self.members.len() * size, NOWHERE);
@@ -112,7 +112,7 @@ impl CliquePlaces {
         firsts.map(move |first| first..(first + batch).min(count))
     }
 
-    /// Whether all blocks of a clique are inside the pattern.
+    /// Returns whether all blocks of a clique are inside the pattern.
     pub fn has_place(&self, clique: usize) -> bool {
         self.columns[clique * self.size * self.size] != NOWHERE
     }
@@ -188,7 +188,7 @@ impl SparseMatrix {
     }
 }
 
-/// What one thread adds of a batch.
+/// Part of a batch that one thread adds.
 struct Share<'a, T> {
     order: &'a [u32],
     /// Values of the matrix from `passed` on.

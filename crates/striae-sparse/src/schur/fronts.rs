@@ -16,7 +16,7 @@ pub(super) struct Failure {
     pub(super) unknown: usize,
     pub(super) pivot: f64,
 }
-/// What a factorisation goes by.
+/// Inputs of a factorisation.
 #[derive(Clone, Copy)]
 pub(super) struct Plan<'a> {
     pub(super) tree: &'a AssemblyTree,
@@ -44,7 +44,7 @@ impl Plan<'_> {
     }
 }
 
-/// What all fronts of a factorisation share.
+/// Data shared by all fronts of a factorisation.
 struct System<'a, T> {
     plan: Plan<'a>,
     numbers: PhantomData<T>,

@@ -74,7 +74,7 @@ pub fn error(solver: &mut dyn LinearSolver, matrix: &SparseMatrix) -> Result<f64
     error_of(solver, matrix, &vec![1.0; n])
 }
 
-/// The same for a solution in the given units.
+/// Error for a solution in the given units.
 fn error_of(
     solver: &mut dyn LinearSolver,
     matrix: &SparseMatrix,

@@ -1,4 +1,4 @@
-//! What the solvers must refuse, and what they name.
+//! Inputs that the solvers must reject, and the parts that their messages name.
 
 use super::{
     problems::{Grid, cliques, error, fill},

@@ -1,17 +1,17 @@
-//! What can be wrong with a texture.
+//! Errors of textures.
 
 use crate::node::SurfaceNode;
 use striae_mesh::FacetId;
 
-/// Why a texture cannot be painted or convected; nodes are numbered as in the surface.
+/// Reason why a texture cannot be painted or convected; nodes are numbered as in the surface.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum TextureError {
     /// A list has another length than the surface has nodes.
     #[error("{found} {what} for a surface of {nodes} nodes")]
     Count {
-        /// What is listed.
+        /// Name of the listed quantity.
         what: &'static str,
-        /// How many are given.
+        /// Number given.
         found: usize,
         /// Nodes of the surface.
         nodes: usize,
@@ -45,7 +45,7 @@ pub enum TextureError {
     NothingPainted,
     /// Two painted places fall on the same node.
     #[error(
-        "{node} is painted twice: it is the nearest node of two painted places; drop one of them or refine the surface"
+        "{node} is painted twice: it is the nearest node of two painted places; remove one of them or refine the surface"
     )]
     PaintedTwice {
         /// The node.

@@ -81,7 +81,7 @@ pub(super) fn split(
     rings
 }
 
-/// Whether every node has facets, and all facets have corners that can carry ordinates.
+/// Checks that every node has facets and that all facets have corners that can carry ordinates.
 pub(super) fn check(
     positions: &[Vec3],
     facets: &[[SurfaceNode; 4]],

@@ -1,4 +1,4 @@
-//! How a texture is laid on the reference surface.
+//! Painting of a texture on the reference surface.
 //!
 //! A [`Field`] has a value at every point of space and a nodal field at every node;
 //! directions at a few places are carried over the surface by interpolation along its
@@ -18,7 +18,7 @@ use crate::{
     scalar::{Real, constant, constant3, cross, dot, normalised, scaled},
 };
 
-/// Where the directions of a texture come from.
+/// Origin of the directions of a texture.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum Paint {
     /// A field in space.
@@ -58,7 +58,7 @@ pub struct Field {
 /// Lines of a field.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum Lines {
-    /// The same direction everywhere.
+    /// One direction everywhere.
     Uniform(Vec3),
     /// Circles about an axis, by the right-hand rule.
     Circumferential(Axis),

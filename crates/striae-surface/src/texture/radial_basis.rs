@@ -27,7 +27,7 @@ use crate::{graph::EdgeGraph, node::SurfaceNode};
 /// Smallest eigenvalue, relative to the largest, of a kernel that counts as positive definite.
 const DEFINITE: f64 = 1e-12;
 
-/// How well the directions between painted places are determined.
+/// Conditioning of the directions between painted places.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Conditioning {
     /// Every node has its own direction; nothing was interpolated.

@@ -23,7 +23,7 @@ pub struct PointContact {
     pub radius: f64,
     /// Pressure `p0` in the middle.
     pub peak_pressure: f64,
-    /// How much the bodies approach, `delta`.
+    /// Approach `delta` of the bodies.
     pub approach: f64,
 }
 

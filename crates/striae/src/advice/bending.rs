@@ -1,15 +1,15 @@
 //! Thin bodies that bend, with elements too long for it.
 //!
-//! Where a linear element of length `l` bends, it shears: in a body of the thickness `t`
-//! the spurious energy over that of bending is
+//! Linear elements that bend also shear: in a body of the thickness `t` the spurious energy over
+//! that of bending is
 //!
 //! ```text
 //! G (l/t)^2 / E = (l/t)^2 / (2 (1 + nu)),
 //! ```
 //!
-//! however many elements there are over the thickness (the parasitic shear of Hughes, The
-//! Finite Element Method, section 4.4). A body is taken for one that bends if it is thin,
-//! something pushes it across, and neither of its large sides is supported from the start.
+//! however many elements there are over the thickness (the parasitic shear of Hughes, The Finite
+//! Element Method, section 4.4). A body counts as bending if it is thin, something pushes it
+//! across, and neither of its large sides is supported from the start.
 
 use std::collections::BTreeSet;
 
@@ -24,7 +24,7 @@ use super::{Advice, Topic, parts::Part};
 const THIN: f64 = 0.2;
 /// Spurious stiffness worth a note, and a warning.
 const LIMITS: [f64; 2] = [0.1, 2.0];
-/// Gap over thickness that is none.
+/// Ratio of gap to thickness that counts as zero.
 const TOUCHING: f64 = 1e-3;
 /// Cosine of normals that are across.
 const ACROSS: f64 = 0.7;
@@ -46,7 +46,7 @@ pub(super) fn look(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) {
         }
         let name = &body.name;
         let text = format!(
-            "body `{name}` is {:.3e} thick and {:.3e} long; in bending its elements, {:.3e} long, are about {:.1} times as stiff as they should be",
+            "body `{name}` is {:.3e} thick and {:.3e} long; in bending its elements, {:.3e} long, are about {:.1} times too stiff",
             frame.lengths[0],
             frame.lengths[2],
             frame.element(&body.mesh),
@@ -139,7 +139,7 @@ fn range(positions: impl Iterator<Item = Vec3>, axis: &Vec3) -> [f64; 2] {
     })
 }
 
-/// Whether something pushes a body along an axis.
+/// Returns whether anything pushes a body along an axis.
 fn is_pushed(model: &Model, body: BodyId, axis: &Vec3) -> bool {
     let mesh = &model.bodies[body.0].mesh;
     let across = |faces: &[Face]| {
@@ -166,7 +166,7 @@ fn is_pushed(model: &Model, body: BodyId, axis: &Vec3) -> bool {
     model.steps.iter().any(pushes) || pairs.any(|pair| touches(&pair.a) || touches(&pair.b))
 }
 
-/// Whether one of the two large sides of a body is held across, or lies on something.
+/// Returns whether one of the two large sides of a body is held transversely, or lies on something.
 fn is_supported(model: &Model, fits: &[Option<Fit>], body: BodyId, frame: &Frame) -> bool {
     let mesh = &model.bodies[body.0].mesh;
     let axis = frame.axes[0];
@@ -201,7 +201,7 @@ fn held_nodes(model: &Model, body: BodyId, axis: &Vec3) -> BTreeSet<NodeId> {
     held.flat_map(|of| of.nodes.iter().copied()).collect()
 }
 
-/// Faces that touch, at the start, what is as long and wide as they are.
+/// Faces that touch, at the start, a surface that is as long and wide as they are.
 fn supported_faces(
     model: &Model,
     fits: &[Option<Fit>],

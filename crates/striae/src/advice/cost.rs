@@ -38,7 +38,7 @@ const UNCERTAIN: f64 = 1.5;
 /// Operations a second.
 const PACE: f64 = 4e9;
 
-/// What a run will take, more or less.
+/// Estimated cost of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cost {
     /// Unknowns of a linear system.
@@ -74,10 +74,10 @@ impl Cost {
         }
     }
 
-    /// Whether that much memory does, for all that a formula can say.
+    /// Checks that the memory suffices, as far as a formula can tell.
     ///
     /// # Errors
-    /// [`Error::Memory`] where it certainly does not.
+    /// Returns [`Error::Memory`] if it certainly does not.
     pub fn fits(&self, available: f64) -> Result<(), Error> {
         if self.bytes <= UNCERTAIN * available {
             return Ok(());
@@ -131,7 +131,7 @@ pub(super) fn look(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) {
             Topic::Cost,
             "",
             format!(
-                "unknowns about {unknowns}; by formula, a solution takes about {:.1} GB and {operations:.1e} operations",
+                "about {unknowns} unknowns; estimated by formula, a solution takes about {:.1} GB and {operations:.1e} operations",
                 bytes / 1e9
             ),
         );
@@ -171,7 +171,7 @@ fn crowded(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) -> bool {
         } = opposite;
         let [fine, coarse] = [side, side.opposite()].map(|side| other_name(model, id, side));
         let text = format!(
-            "pair `{}`: {count} facets of `{fine}` lie opposite one facet of `{coarse}`, at ({:.6}, {:.6}, {:.6}); contact of such different facets takes long, and up to {:.1} GB; refine `{coarse}` there, or make it a rigid surface if it hardly deforms",
+            "pair `{}`: {count} facets of `{fine}` lie opposite one facet of `{coarse}`, at ({:.6}, {:.6}, {:.6}); contact of facets of such different sizes is slow and takes up to {:.1} GB; refine `{coarse}` there, or make it a rigid surface if it hardly deforms",
             pair.name,
             at.x,
             at.y,
@@ -223,7 +223,7 @@ fn memory(cost: &Cost, advice: &mut Advice) {
         return;
     };
     let text = format!(
-        "a run takes about {:.1} GB of memory, and {:.1} GB are available here",
+        "a run takes about {:.1} GB of memory, but only {:.1} GB are available here",
         cost.bytes / 1e9,
         available / 1e9
     );
@@ -234,12 +234,12 @@ fn time(cost: &Cost, advice: &mut Advice) {
     let seconds = cost.seconds();
     let time = match seconds {
         ..1.0 => "less than a second".to_owned(),
-        ..120.0 => format!("some {seconds:.0} s"),
-        ..7200.0 => format!("some {:.0} min", seconds / 60.0),
-        _ => format!("some {:.0} h", seconds / 3600.0),
+        ..120.0 => format!("about {seconds:.0} s"),
+        ..7200.0 => format!("about {:.0} min", seconds / 60.0),
+        _ => format!("about {:.0} h", seconds / 3600.0),
     };
     let text = format!(
-        "{} increments at least; with six iterations each the linear systems take {time}",
+        "at least {} increments; with six iterations each, the linear systems take {time}",
         cost.increments
     );
     advice.note(Topic::Cost, "", text);
@@ -260,7 +260,7 @@ mod tests {
         assert!(cost.fits(11e9).is_ok());
         let refused = cost.fits(8e9).expect_err("too much").to_string();
         assert!(
-            refused.starts_with("3000000 unknowns take about 15.0 GB, and 8.0 GB are available")
+            refused.contains("3000000 unknowns take about 15.0 GB, but only 8.0 GB are available")
         );
         assert_eq!(cost.seconds(), 10.0 * 6.0 * 1.4e11 / 4e9);
     }

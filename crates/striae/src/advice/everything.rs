@@ -1,7 +1,7 @@
-//! Contact of everything: what may touch what, what may not, and thin bodies.
+//! Contact of everything: surfaces that may touch, surfaces that may not, and thin bodies.
 //!
-//! A model that has pairs with faces at sharp edges, as contact of everything makes them, is
-//! meant to be whole: what no pair lets touch is told, as something may be forgotten.
+//! A model that has pairs with faces at sharp edges, as contact of everything makes them, is meant
+//! to be complete: surfaces without a pair are reported, as they may be forgotten.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -111,7 +111,7 @@ fn touching(model: &Model, advice: &mut Advice) {
     }
 }
 
-/// Where a body is thinnest beside the size of its facets.
+/// Place where a body is thinnest relative to the size of its facets.
 #[derive(Clone, Copy)]
 struct Thin {
     thickness: f64,
@@ -168,7 +168,7 @@ fn thickness(model: &Model, body: BodyId, thin: Thin, advice: &mut Advice) {
     }
 }
 
-/// How far the largest increment of a step moves what is prescribed.
+/// Distance that the largest increment of a step moves prescribed nodes.
 fn moved(model: &Model, step: &Step) -> f64 {
     let own = step.displacements.iter().map(|of| {
         let before = previous(model, step, of.body, &of.nodes);

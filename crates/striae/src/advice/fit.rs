@@ -26,7 +26,7 @@ pub(super) fn look(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) {
         if looks_away(model, pair) || turned(model, PairId(index)).is_some() {
             let [a, b] = [Side::B, Side::A].map(|side| other_name(model, PairId(index), side));
             let text = format!(
-                "pair `{}`: the surface of `{a}` looks away from that of `{b}`, so they cannot touch; name the facets that face each other, or turn the normal of a rigid side round",
+                "pair `{}`: the surface of `{a}` faces away from that of `{b}`, so they cannot touch; name the facets that face each other, or reverse the normal of a rigid side",
                 pair.name
             );
             advice.warn(Topic::Facing, &pair.name, text);
@@ -79,7 +79,7 @@ fn words(model: &Model, pair: PairId, fit: &Fit) -> String {
     format!("{gap}; {overlap}")
 }
 
-/// Whether no facets of the sides face each other, as far as their normals tell.
+/// Returns whether no facets of the sides face each other, as far as their normals tell.
 fn looks_away(model: &Model, pair: &Pair) -> bool {
     // Parts of one body may face each other only once it is bent.
     if pair.is_within_a_body() {

@@ -7,9 +7,9 @@ use striae_model::{Model, Pair};
 
 use super::{Advice, Topic};
 
-/// Directions of slip that are looked at.
+/// Number of directions of slip that are checked.
 const DIRECTIONS: usize = 360;
-/// Angles between two textures that are looked at.
+/// Number of angles between two textures that are checked.
 const ANGLES: usize = 37;
 /// Coefficient above which there is a warning.
 const LARGEST: f64 = 2.0;
@@ -30,7 +30,7 @@ pub(super) fn look(model: &Model, advice: &mut Advice) {
     }
 }
 
-/// Notes textures that no friction of a pair looks at.
+/// Notes textures that no friction of a pair uses.
 fn unused(model: &Model, pair: &Pair, advice: &mut Advice) {
     let changes = model.steps.iter().flat_map(|step| &step.frictions);
     let changes = changes.filter(|(of, _)| model.pairs[of.0].name == pair.name);
@@ -41,7 +41,7 @@ fn unused(model: &Model, pair: &Pair, advice: &mut Advice) {
     if unused && pair.textures.iter().any(Option::is_some) {
         let name = &pair.name;
         let text = format!(
-            "pair `{name}` has a texture, but its friction is the same in all directions; `law = \"orthotropic\"` is the simplest that looks at one"
+            "pair `{name}` has a texture, but its friction is the same in all directions; the simplest law that uses a texture is `law = \"orthotropic\"`"
         );
         advice.note(Topic::Friction, name, text);
     }
@@ -71,7 +71,7 @@ fn of_pair(name: &str, when: &str, friction: &Friction, advice: &mut Advice) {
         advice.warn(
             Topic::Friction,
             name,
-            format!("{text}: in one of them there is hardly any friction"),
+            format!("{text}: in one of these directions there is hardly any friction"),
         );
     } else {
         advice.note(Topic::Friction, name, text);
@@ -107,7 +107,7 @@ fn of_dependences(name: &str, when: &str, friction: &Friction, advice: &mut Advi
     }
     if let Some([from, to]) = by_pressure.falling() {
         let text = format!(
-            "pair `{name}`: friction{when} falls as the pressure rises from {from} to {to}, since factors fall faster than 1/p there; increments may have several solutions. Let factors times pressures ascend, if this is not measured"
+            "pair `{name}`: friction{when} falls as the pressure rises from {from} to {to}, since factors fall faster than 1/p there; increments may have several solutions. Unless this is measured, make factors times pressures ascend"
         );
         advice.warn(Topic::Friction, name, text);
     }
@@ -118,7 +118,7 @@ fn of_dependences(name: &str, when: &str, friction: &Friction, advice: &mut Advi
             false => "in fast slip".to_owned(),
         };
         let text = format!(
-            "pair `{name}`: friction{when} falls with the slip rate, to {share:.4} of that at rest {at}: bodies may jump from stick to slip within an increment, and steps without inertia leave out how they move then"
+            "pair `{name}`: friction{when} falls with the slip rate, to {share:.4} of that at rest {at}: bodies may jump from stick to slip within an increment, and steps without inertia do not resolve this motion"
         );
         advice.note(Topic::Friction, name, text);
     }
@@ -129,7 +129,7 @@ fn large(name: &str, when: &str, mu: f64, advice: &mut Advice) {
         Topic::Friction,
         name,
         format!(
-            "pair `{name}`: coefficients of friction{when} come to {mu:.4}; above {LARGEST} they are hardly meant. They are no percentages and no angles"
+            "pair `{name}`: coefficients of friction{when} reach {mu:.4}; values above {LARGEST} are hardly intended. They are not percentages or angles"
         ),
     );
 }

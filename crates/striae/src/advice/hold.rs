@@ -1,8 +1,8 @@
-//! What holds each body in the first step: prescribed nodes, ties, contact.
+//! Restraint of each body in the first step: prescribed nodes, ties, contact.
 //!
-//! Rigid motions that prescribed nodes leave free have to be stopped by contact. A pair that
-//! touches stops all of them that its friction and normals reach, whatever its size; one
-//! that is open stops none unless it is stabilised. In later steps contact may have closed.
+//! Rigid motions that prescribed nodes leave free must be stopped by contact. A pair that touches
+//! stops all motions that its friction and normals resist, whatever its size; an open pair stops
+//! none unless it is stabilised. In later steps contact may have closed.
 
 use std::collections::BTreeSet;
 
@@ -13,7 +13,7 @@ use striae_model::{Body, BodyId, ContactSurface, Model, PairId, Procedure, Rigid
 
 use super::{Advice, Topic};
 
-/// Gap over the size of an element that is none.
+/// Ratio of the gap to the element size that counts as zero.
 const TOUCHING: f64 = 1e-6;
 
 /// Notes what holds every body, and warns of those that nothing holds at first.
@@ -43,7 +43,7 @@ pub(super) fn look(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) {
         let mut motions = prescribed(&body.mesh, step, id);
         match motions.left() {
             0 => {
-                let text = format!("body `{}` is held by its prescribed nodes", body.name);
+                let text = format!("body `{}` is restrained by its prescribed nodes", body.name);
                 advice.note(Topic::Hold, &body.name, text);
             }
             _ => by_contact(model, fits, (id, body), &mut motions, advice),
@@ -103,17 +103,17 @@ fn by_contact(
         stop_by(model, PairId(pair), id, motions);
     }
     if motions.left() == 0 {
-        let text = format!("{text}; contact of {} has to hold it", list(&closed));
+        let text = format!("{text}; contact of {} must restrain it", list(&closed));
         advice.note(Topic::Hold, name, text);
         return;
     }
     let left = motions.words();
     let why = match (&closed[..], &open[..]) {
         (_, []) => format!(
-            "the contact of {} leaves it free {left}, as it has no friction",
+            "the contact of {} leaves it free {left}, as it is frictionless",
             list(&closed)
         ),
-        ([], _) => format!("nothing holds it before {} closes", list(&open)),
+        ([], _) => format!("nothing restrains it before {} closes", list(&open)),
         _ => format!(
             "with the contact of {} it is free {left} before {} closes",
             list(&closed),
@@ -123,7 +123,7 @@ fn by_contact(
     let remedy = match &open[..] {
         [] => "prescribe these motions",
         _ => {
-            "prescribe these motions, begin with the surfaces in contact, or set `stabilise = true` in the pair"
+            "prescribe these motions, start with the surfaces in contact, or set `stabilise = true` in the pair"
         }
     };
     let text = format!("{text}, and {why}; {remedy}");

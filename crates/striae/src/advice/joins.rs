@@ -46,7 +46,7 @@ fn pieces(body: &Body, advice: &mut Advice) {
             Topic::Shape,
             name,
             format!(
-                "body `{name}`: pairs of nodes that lie at the same place and are not joined: {}, the first {first} and {second} at ({:.6}, {:.6}, {:.6}); elements part there without resistance. Merge coincident nodes where the mesh is made, unless a slit is meant",
+                "body `{name}`: pairs of coincident nodes that are not joined: {}, the first {first} and {second} at ({:.6}, {:.6}, {:.6}); elements separate there without resistance. Merge coincident nodes in the mesh generator, unless a slit is intended",
                 coincident.len(), x.x, x.y, x.z
             ),
         );

@@ -12,7 +12,7 @@ pub(super) struct Part<'m> {
     pub(super) name: String,
     /// Their material.
     pub(super) material: &'m Material,
-    /// How they take up strain.
+    /// Formulation of the elements.
     pub(super) formulation: Formulation,
     /// Mass per reference volume.
     pub(super) density: f64,

@@ -19,7 +19,7 @@ const NORMAL: f64 = 0.7;
 const PRESSED: [f64; 2] = [0.5, 1.0];
 /// Part of the extent of a body over which nodes are prescribed that press it.
 const SPREAD: f64 = 0.5;
-/// Way over the height that is none.
+/// Ratio of the motion to the height that counts as zero.
 const NO_WAY: f64 = 1e-9;
 
 /// Notes bodies that lose much of their height.
@@ -167,12 +167,12 @@ fn pressed(pair: &Pair, fit: &Fit, ways: &[Way], advice: &mut Advice) {
         return;
     }
     let text = format!(
-        "pair `{}`: step `{}` moves `{a}` and `{b}` by {:.3e} towards each other, from a gap of {gap:.3e}, and what is pressed between is {:.3e} high",
+        "pair `{}`: step `{}` moves `{a}` and `{b}` by {:.3e} towards each other, from a gap of {gap:.3e}, and the material pressed between them is {:.3e} high",
         pair.name, way.step.name, way.towards, way.height
     );
     if share(way) >= PRESSED[1] {
         let text = format!(
-            "{text}: nothing would be left of it; move it by less, and compare the units of mesh and displacements"
+            "{text}: it would be crushed completely; reduce the displacement, and compare the units of mesh and displacements"
         );
         advice.warn(Topic::Units, &pair.name, text);
     } else if share(way) > PRESSED[0] {

@@ -43,7 +43,7 @@ pub(super) fn look(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) {
                 Topic::Fit,
                 name,
                 format!(
-                    "pair `{name}`: in step `{}` about {touching} of {all} nodes come to the plane; pressures of a curved contact need about five elements over its radius, forces three",
+                    "pair `{name}`: in step `{}` about {touching} of {all} nodes touch the plane; pressures of a curved contact need about five elements over its radius, forces three",
                     step.name
                 ),
             );
@@ -51,7 +51,7 @@ pub(super) fn look(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) {
     }
 }
 
-/// How many nodes of a side can touch a plane, and how many it has.
+/// Number of nodes of a side that can touch a plane, and number of all its nodes.
 fn nodes(model: &Model, pair: &Pair, step: &Step) -> Option<(usize, usize)> {
     let (ContactSurface::Deformable { body, faces }, ContactSurface::Rigid(rigid)) =
         (&pair.a, &pair.b)
@@ -70,7 +70,7 @@ fn nodes(model: &Model, pair: &Pair, step: &Step) -> Option<(usize, usize)> {
     (way > 0.0).then(|| (nodes.iter().filter(near).count(), nodes.len()))
 }
 
-/// How far a body is moved towards a plane of normal `n` that moves itself.
+/// Motion of a body towards a plane of normal `n` that moves itself.
 pub(super) fn approach(step: &Step, body: BodyId, rigid: RigidId, n: &Vec3) -> f64 {
     let own = step.displacements.iter().filter(|of| of.body == body);
     let own = own.map(|of| {

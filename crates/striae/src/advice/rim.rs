@@ -1,8 +1,8 @@
-//! Surfaces that go on smoothly beyond the facets of a pair.
+//! Surfaces that continue smoothly beyond the facets of a pair.
 //!
-//! Where a facet of the pair and a neighbour outside it make an angle of less than 40 degrees
-//! at their common edge, contact can roll or spread over the edge, onto facets that no pair
-//! knows. It does where the body turns, or where the other side comes that far.
+//! If a facet of the pair and a neighbour outside it make an angle of less than 40 degrees at their
+//! common edge, contact can roll or spread over the edge, onto facets that no pair knows. It does
+//! where the body turns, or where the other side comes that far.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,12 +11,12 @@ use striae_model::{BodyId, ContactSurface, Freedom, Model, RigidShape, Step};
 
 use super::{Advice, Topic, resolution::approach};
 
-/// Cosine between the normals of facets that go on smoothly.
+/// Cosine between the normals of facets that continue smoothly.
 const SMOOTH: f64 = 0.77;
 /// Angle about which a body does not roll.
 const SMALL: f64 = 0.05;
 
-/// Warns of contact that comes to such edges.
+/// Warns of contact that reaches such edges.
 pub(super) fn look(model: &Model, advice: &mut Advice) {
     for pair in &model.pairs {
         for (side, other) in [(&pair.a, &pair.b), (&pair.b, &pair.a)] {
@@ -35,7 +35,7 @@ pub(super) fn look(model: &Model, advice: &mut Advice) {
                 let x = mesh.positions[first.index()];
                 let body = &model.bodies[body.0].name;
                 let text = format!(
-                    "pair `{}`: in step `{}` {how}, and the surface of `{body}` goes on smoothly beyond the facets of the pair, as at ({:.6}, {:.6}, {:.6}); facets outside it are not in contact: add the neighbours to the facets of the pair",
+                    "pair `{}`: in step `{}` {how}, and the surface of `{body}` continues smoothly beyond the facets of the pair, as at ({:.6}, {:.6}, {:.6}); facets outside it are not in contact: add the neighbours to the facets of the pair",
                     pair.name, step.name, x.x, x.y, x.z
                 );
                 advice.warn(Topic::Fit, &pair.name, text);
@@ -89,7 +89,7 @@ fn edges(mesh: &Mesh, face: Face) -> impl Iterator<Item = [NodeId; 2]> {
     edges.map(|[from, to]| [from.min(to), from.max(to)])
 }
 
-/// Returns the way in which contact comes to the rim in a step.
+/// Returns how contact reaches the rim in a step.
 fn reached(
     model: &Model,
     (body, faces): (BodyId, &[Face]),
@@ -101,7 +101,7 @@ fn reached(
     if let Some(angle) = rolls(model, body, faces, step) {
         let name = &model.bodies[body.0].name;
         return Some(format!(
-            "`{name}` turns by {:.0} degrees",
+            "`{name}` rotates by {:.0} degrees",
             angle.to_degrees()
         ));
     }

@@ -17,7 +17,8 @@ use striae_model::{ContactSurface, Initial, Model, RigidShape};
 
 use super::{Advice, Topic};
 
-/// Sagitta over overlap from which on it bears on the pressure: as large is its error.
+/// Ratio of sagitta to overlap from which on it matters: this is the relative error of the
+/// pressure.
 const BESIDE: f64 = 0.1;
 /// Angle between neighbouring facets from which on their common edge is one of the body.
 const EDGE: f64 = 0.8;
@@ -38,7 +39,7 @@ pub(super) fn look(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) {
         let sagitta = sagittas[0].max(sagittas[1]);
         if sagitta > BESIDE * depth {
             let text = format!(
-                "pair `{}`: the deepest overlap of the meshes, {depth:.3e}, lies beside the sagitta of their facets, {sagitta:.3e}: facets are chords of curved surfaces, so where the meshes do not match the pressure is wrong by about {:.0} %. State the overlap of the surfaces as `interference` in place of `initial = \"resolve\"`, or refine the meshes around",
+                "pair `{}`: the deepest overlap of the meshes, {depth:.3e}, is comparable to the sagitta of their facets, {sagitta:.3e}: facets are chords of curved surfaces, so where the meshes do not match the pressure is wrong by about {:.0} %. State the overlap of the surfaces as `interference` instead of `initial = \"resolve\"`, or refine the meshes around it",
                 pair.name,
                 100.0 * sagitta / depth
             );

@@ -14,7 +14,7 @@ const ALONG: f64 = 0.7;
 /// Names of the coordinates of a rigid body.
 const COORDINATES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 
-/// Notes what steps ask for that their bodies can hardly do.
+/// Notes requests of steps that their bodies can hardly fulfil.
 pub(super) fn look(model: &Model, advice: &mut Advice) {
     for (index, body) in model.bodies.iter().enumerate() {
         displacements(model, BodyId(index), body, advice);
@@ -88,7 +88,7 @@ fn waves(body: &Body, step: &Step, advice: &mut Advice) {
                 Topic::Units,
                 &body.name,
                 format!(
-                    "{}: with Young's modulus {:.3e} and density {:.3e} waves run at {speed:.1e}, and in the {} of step `{}` get by {way:.1e}, less than an element of {longest:.1e}; are densities, moduli and times in one system of units, such as t/mm^3, MPa and s?",
+                    "{}: with Young's modulus {:.3e} and density {:.3e} waves travel at {speed:.1e}, and in the {} of step `{}` they cover {way:.1e}, less than an element of {longest:.1e}; are densities, moduli and times in one system of units, such as t/mm^3, MPa and s?",
                     part.name,
                     part.youngs_modulus(),
                     part.density,
@@ -124,7 +124,7 @@ fn held(model: &Model, advice: &mut Advice) {
                     Topic::Hold,
                     name,
                     format!(
-                        "step `{}` drives `{name}` along {}, where it is held, so this does nothing; add `free = [{}]`",
+                        "step `{}` drives `{name}` along {}, where it is held, so this has no effect; add `free = [{}]`",
                         step.name,
                         idle.join(" and "),
                         listed.join(", ")

@@ -50,7 +50,7 @@ fn shape(body: &Body, advice: &mut Advice) {
         let poorest = poorest.map(|(element, scaled)| format!("{element} ({scaled:.3})"));
         let poorest = poorest.collect::<Vec<_>>().join(", ");
         let text = format!(
-            "body `{name}`: the elements of the poorest shape, by their scaled Jacobian, which is 1 for regular ones: {poorest}"
+            "body `{name}`: the elements of the poorest shape, by scaled Jacobian (1 for regular elements): {poorest}"
         );
         match quality.slivers.len() {
             0 => advice.note(Topic::Shape, name, text),
@@ -73,7 +73,7 @@ fn locking(body: &Body, part: &Part, advice: &mut Advice) {
             Topic::Locking,
             name,
             format!(
-                "{about} has other elements than hexahedra; with `formulation = \"assumed-strain\"` they are as with the standard formulation"
+                "{about} has elements other than hexahedra; `formulation = \"assumed-strain\"` treats them like the standard formulation"
             ),
         );
     }
@@ -82,7 +82,7 @@ fn locking(body: &Body, part: &Part, advice: &mut Advice) {
             Topic::Locking,
             name,
             format!(
-                "{about} has Poisson's ratio {nu:.4} and the standard formulation: its elements lock, being far too stiff; use `formulation = \"mean-dilatation\"`"
+                "{about} has Poisson's ratio {nu:.4} and the standard formulation: its elements lock and are far too stiff; use `formulation = \"mean-dilatation\"`"
             ),
         );
     } else if nu > STIFF_VOLUME && tetrahedra {

@@ -32,7 +32,7 @@ pub(super) fn look(model: &Model, advice: &mut Advice) {
         if !(SMALL..LARGE).contains(&(own / size)) {
             let (name, body) = (&rigid.name, &body.name);
             let text = format!(
-                "rigid surface `{name}` is {own:.3e} long, and body `{body}`, which it is to touch, {size:.3e}; are both meshes in one unit of length?"
+                "rigid surface `{name}` is {own:.3e} long, but body `{body}`, which it is to touch, {size:.3e}; are both meshes in one unit of length?"
             );
             advice.warn(Topic::Units, name, text);
         }

@@ -6,9 +6,9 @@ use striae_surface::texture::{Lines, Paint};
 
 use super::{Advice, Topic};
 
-/// Sine of the angle between a direction and the normal that is none.
+/// Sine of the angle between a direction and the normal that counts as zero.
 const ALONG: f64 = 1e-6;
-/// The same from which on the direction is in doubt: six degrees.
+/// Sine from which on the direction is doubtful: six degrees.
 const NEARLY: f64 = 0.1;
 
 /// Notes textures that cannot be painted, and those nearly along the normal of a plane.
@@ -39,7 +39,7 @@ fn on_plane(model: &Model, pair: &Pair, advice: &mut Advice) {
             Topic::Texture,
             name,
             format!(
-                "pair `{name}`: the texture of `{plane}` is only {:.1} degrees from its normal; what is left of it in the plane gives the direction",
+                "pair `{name}`: the texture of `{plane}` is only {:.1} degrees from its normal; its small tangential part gives the direction",
                 sine.asin().to_degrees()
             ),
         );

@@ -1,4 +1,4 @@
-//! What ties hold, and what they leave free.
+//! Restraint of bodies by ties, and motions that ties leave free.
 
 use striae_model::Model;
 use striae_solve::tie::Ties;

@@ -1,9 +1,9 @@
-//! Whether moduli, sizes, loads and densities can be in one system of units.
+//! Test of whether moduli, sizes, loads and densities can be in one system of units.
 //!
-//! A load `t` on a body of modulus `E` strains it by about `t/E`; strains below 1e-8, or
-//! above 1, are hardly meant. Solids have moduli up to about 1.2e12 Pa, which is 1.2e6 MPa
-//! and 1.7e8 psi: a modulus above 2e8 is in pascals or the like, so that lengths are in
-//! metres. Waves run with `sqrt(E/rho)`, in no solid faster than 2e4 m/s = 2e7 mm/s.
+//! A load `t` on a body of modulus `E` strains it by about `t/E`; strains below 1e-8 or above 1 are
+//! hardly intended. Solids have moduli up to about 1.2e12 Pa, which is 1.2e6 MPa and 1.7e8 psi: a
+//! modulus above 2e8 is in pascals or the like, so lengths are in metres. Waves travel at
+//! `sqrt(E/rho)`, in no solid faster than 2e4 m/s = 2e7 mm/s.
 
 use striae_model::{Body, BodyId, ContactSurface, LoadKind, Model, RigidId};
 
@@ -15,7 +15,7 @@ use super::{
 
 /// Strain by loads that is too small to be meant.
 const NO_STRAIN: f64 = 1e-8;
-/// The same for a force over the square of the size, which is but an estimate.
+/// Corresponding limit for a force divided by the square of the size, which is only an estimate.
 const NO_STRAIN_BY_FORCE: f64 = 1e-11;
 /// Moduli between these are in pascals.
 const PASCALS: [f64; 2] = [2e8, 2e12];
@@ -66,7 +66,7 @@ fn loads(model: &Model, body: BodyId, [soft, stiff]: [f64; 2], advice: &mut Advi
             Topic::Units,
             name,
             format!(
-                "{}, hardly any; are both in one system of units, such as N, mm and MPa, or N, m and Pa?",
+                "{}, which is hardly any; are both in one system of units, such as N, mm and MPa, or N, m and Pa?",
                 about(soft)
             ),
         );
@@ -95,7 +95,7 @@ fn forces(model: &Model, body: BodyId, modulus: f64, advice: &mut Advice) {
             Topic::Units,
             name,
             format!(
-                "body `{name}`: the largest force that drives what it meets, {largest:.3e}, hardly strains a body of the size {size:.3e} and Young's modulus {modulus:.3e} (by some {strain:.1e}); are they in one system of units?"
+                "body `{name}`: the largest force that drives the bodies it meets, {largest:.3e}, hardly strains a body of size {size:.3e} and Young's modulus {modulus:.3e} (by about {strain:.1e}); are they in one system of units?"
             ),
         );
     }
@@ -152,7 +152,7 @@ fn waves(body: &Body, part: &Part, advice: &mut Advice) {
             Topic::Units,
             name,
             format!(
-                "{about}: with Young's modulus {modulus:.3e} and density {density:.3e} waves would run at {speed:.1e}, faster than in any solid; with N, mm and s densities are in t/mm^3 and moduli in MPa"
+                "{about}: with Young's modulus {modulus:.3e} and density {density:.3e} waves would travel at {speed:.1e}, faster than in any solid; with N, mm and s densities are in t/mm^3 and moduli in MPa"
             ),
         );
     }

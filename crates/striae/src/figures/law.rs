@@ -17,7 +17,7 @@ const POINTS: u32 = 500;
 
 /// A friction of a model.
 pub struct Named<'a> {
-    /// Where it holds, in words.
+    /// Place where it holds, in words.
     pub title: String,
     /// Name of its pair, and of the step that changes it.
     pub file: String,
@@ -53,8 +53,8 @@ pub fn figure(friction: &Friction, analyses: &[Analysis]) -> Figure {
     drawn(friction, analyses, 1.0, "ϖ")
 }
 
-/// The same times the coefficient of friction at rest: `|tau|/p` under pressures at which
-/// no cap on the shear stress is reached.
+/// Slip surfaces and friction scaled by the static coefficient of friction: `|tau|/p` under
+/// pressures at which no cap on the shear stress is reached.
 pub fn coefficients(friction: &Friction, analyses: &[Analysis]) -> Figure {
     drawn(friction, analyses, friction.coefficient().at_rest(), "p")
 }

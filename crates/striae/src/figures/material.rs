@@ -15,7 +15,7 @@ pub const SAMPLES: usize = 200;
 pub struct Test {
     /// The test.
     pub mode: Mode,
-    /// Its states, by ascending stretch; fewer than asked for where the law ends.
+    /// Its states, by ascending stretch; fewer than requested if the law ends.
     pub states: Vec<TestState>,
 }
 

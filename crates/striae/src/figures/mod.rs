@@ -12,7 +12,7 @@ pub use surface::TexturedSurface;
 use striae_contact::side::Side;
 use striae_solve::model::{ContactSurface, Model};
 
-/// What a side of a pair belongs to, in words.
+/// Body or surface that a side of a pair belongs to, in words.
 pub fn owner(model: &Model, pair: usize, side: Side) -> String {
     let pair = &model.pairs[pair];
     match pair.surfaces()[side.index()] {

@@ -35,7 +35,7 @@ impl TexturedSurface {
     /// A side of a pair; `None` where it has no texture.
     ///
     /// # Errors
-    /// Where the texture has no direction on the surface.
+    /// If the texture has no direction on the surface.
     pub fn new(problem: &Problem, pair: usize, side: Side) -> Result<Option<Self>, ProblemError> {
         let geometry = &problem.pairs[pair].contact.sides[side];
         let textured = match (&geometry.geometry, &geometry.texture) {

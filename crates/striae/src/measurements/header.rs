@@ -5,14 +5,14 @@ use striae_model::nearest;
 
 use super::{COLUMNS, Form, MeasurementFault, NamedColumn, fault, lines::Separator};
 
-/// Which field of a line is which quantity.
+/// Assignment of the fields of a line to quantities.
 pub(super) struct Header {
     separator: Separator,
     /// Names of the fields, or their numbers where no line names them.
     names: Vec<String>,
     /// Quantities with their fields.
     fields: Vec<(&'static str, usize)>,
-    /// How the fields are named.
+    /// Naming of the fields.
     naming: Naming,
 }
 
@@ -51,7 +51,7 @@ impl Header {
                 Some(field) => header.fields.push((named.quantity, field)),
                 None => {
                     let (column, there) = (&named.column, header.there());
-                    let message = format!("there is no column `{column}`; {there}");
+                    let message = format!("unknown column `{column}`; {there}");
                     faults.push(fault(Some((number, 1)), message));
                 }
             }
@@ -63,7 +63,7 @@ impl Header {
             };
             match header.field(known) {
                 Some(_) if form.columns.iter().any(|named| named.quantity == known) => {}
-                Some(_) => faults.push(fault(place, format!("column `{name}` is there twice"))),
+                Some(_) => faults.push(fault(place, format!("column `{name}` appears twice"))),
                 None => header.fields.push((known, at)),
             }
         }
@@ -84,7 +84,7 @@ impl Header {
     pub(super) fn note(&self) -> Option<String> {
         let names = self.foreign().map(|name| format!("`{name}`"));
         let names: Vec<String> = names.collect();
-        (!names.is_empty()).then(|| format!("columns that are not used: {}", names.join(", ")))
+        (!names.is_empty()).then(|| format!("unused columns: {}", names.join(", ")))
     }
 
     fn foreign(&self) -> impl Iterator<Item = &str> {
@@ -171,7 +171,7 @@ impl Header {
             let found = self.separator.number(text);
             let found = found.filter(|value| positive.allows(*value));
             if found.is_none() {
-                let message = format!("`{text}` is no {} for `{name}`", positive.words());
+                let message = format!("`{text}` is not a {} for `{name}`", positive.words());
                 faults.push(fault(Some((number, column)), message));
             }
             found

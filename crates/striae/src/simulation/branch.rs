@@ -1,4 +1,4 @@
-//! Runs that go on from a checkpoint with other steps.
+//! Runs that continue from a checkpoint with other steps.
 //!
 //! The new deck has the same bodies, rigid surfaces and pairs, and begins with the steps that
 //! the run has done. A step that the run stopped in may be stated otherwise: what was done of
@@ -33,7 +33,7 @@ use crate::{
 /// Fraction from which on a step is done.
 const DONE: f64 = 1.0;
 
-/// Where a run takes up the steps of another deck.
+/// Point at which a run continues with the steps of another deck.
 enum TakenUp {
     /// After so many steps.
     After(usize),
@@ -42,11 +42,11 @@ enum TakenUp {
 }
 
 impl Simulation {
-    /// Goes on from the checkpoint in a folder, of a run that was stopped or has
-    /// completed, with the steps of another deck, whose bodies, rigid surfaces and pairs are the same and
-    /// which begins with the steps that are done. Times and numbers of steps and increments
-    /// go on; history and summary, written to `out`, are those of the further steps. That run
-    /// can be resumed, unless it leaves a step that was under way.
+    /// Continues from the checkpoint in a folder, of a run that was stopped or has completed, with
+    /// the steps of another deck, whose bodies, rigid surfaces and pairs are the same and which
+    /// begins with the steps that are done. Times and numbers of steps and increments continue;
+    /// history and summary, written to `out`, are those of the further steps. That run can be
+    /// resumed, unless it leaves a step that was under way.
     ///
     /// # Errors
     /// When there is no checkpoint, by name what differs between the decks, or all
@@ -68,10 +68,10 @@ impl Simulation {
         Self::branched(None, folder, (deck, settings), out.into())
     }
 
-    /// The same on several ranks, however many wrote the checkpoint; collective.
+    /// Resumes on several ranks, for any number of ranks that wrote the checkpoint; collective.
     ///
     /// # Errors
-    /// As [`Self::resume_with_set`], on all ranks.
+    /// Returns the errors of [`Self::resume_with_set`], on all ranks.
     pub fn resume_with_on(
         ranks: Arc<dyn Ranks>,
         folder: &Path,
@@ -113,8 +113,8 @@ impl Simulation {
     }
 }
 
-/// Where a checkpoint takes up the steps of a model, which gets the part of a step that is done
-/// and that it states otherwise.
+/// Point at which a checkpoint continues with the steps of a model; the model gets the completed
+/// part of a step that it states differently.
 fn continued(model: &mut Model, index: &Index) -> Result<TakenUp, Error> {
     let (source, (under_way, fraction)) = (index.source(), index.reached());
     let is_done = fraction >= DONE;

@@ -1,4 +1,4 @@
-//! What stands between a run and its observer.
+//! Layer between a run and its observer.
 
 use striae_contact::evaluation::Evaluation;
 use striae_output::OutputError;
@@ -29,11 +29,11 @@ pub(super) struct Watch<'a> {
     pub(super) interrupt: Interrupt,
     /// States at the end of the steps.
     pub(super) steps: Vec<State>,
-    /// State before the increment under way.
+    /// State before the current increment.
     pub(super) before: State,
     /// Increments that have converged since the undeformed state.
     pub(super) increments: usize,
-    /// Why nothing could be written any more.
+    /// Reason why nothing could be written any more.
     pub(super) failure: Option<OutputError>,
 }
 
@@ -92,7 +92,7 @@ impl drive::Observer for Watch<'_> {
 }
 
 impl Watch<'_> {
-    /// What comes next if nothing stops the run.
+    /// Decision of a run that nothing stops.
     fn proceed(&self, next: Next, otherwise: Continue) -> Continue {
         if self.failure.is_some() || self.interrupt.is_set() || next == Next::Stop {
             Continue::Stop

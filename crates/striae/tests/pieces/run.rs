@@ -158,7 +158,7 @@ impl Watch<'_> {
     }
 }
 
-/// What becomes of a run on so many ranks, from its start or its checkpoint, up to an increment.
+/// Ending of a run on so many ranks, from its start or its checkpoint, up to an increment.
 pub fn run(folder: &Path, ranks: usize, from: From, last: usize) -> Result<Ending, String> {
     run_while(folder, ranks, from, last, &|_, _| {})
 }
@@ -169,7 +169,7 @@ pub enum From {
     Checkpoint,
 }
 
-/// The same, calling a function on each rank after each increment.
+/// Runs like [`run`], calling a function on each rank after each increment.
 pub fn run_while(
     folder: &Path,
     ranks: usize,

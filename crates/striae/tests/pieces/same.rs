@@ -1,4 +1,4 @@
-//! Whether two folders say the same.
+//! Comparison of the content of two folders.
 
 use std::path::Path;
 
@@ -7,7 +7,7 @@ use striae::output::{
     vtk::{Stored, read_series},
 };
 
-/// How far numbers may be apart, over the largest one of their kind.
+/// Largest difference of two numbers, relative to the largest one of their kind.
 const CLOSE: f64 = 1e-8;
 
 fn assert_near(found: &[f64], expected: &[f64], what: &str) {

@@ -1,4 +1,4 @@
-//! What is no tie, in words.
+//! Configurations that cannot be tied, and their messages.
 
 use std::path::Path;
 
@@ -101,7 +101,11 @@ b = { body = "lower", facets = "zmax" }
             &twice,
             &["tie `paste` joins facets that tie `glue` joins already"],
         ),
-        (0.5, &pair, &["pair `contact` lets slide and open"]),
+        (
+            0.5,
+            &pair,
+            &["pair `contact`, which lets them slide and open"],
+        ),
         (
             0.6,
             GLUE,

@@ -22,7 +22,7 @@ fn handle(body: &str, set: &str) -> (RigidBuilder, [Freedom; 6]) {
     (striae::model::tied("handle", body, set), to)
 }
 
-/// What the stress of a strain of one is, to measure others by.
+/// Stress at a strain of one, as a scale for others.
 fn stiffness() -> f64 {
     1e6
 }

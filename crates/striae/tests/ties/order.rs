@@ -1,4 +1,4 @@
-//! Convergence: a bent beam of two tied parts comes to that of one piece.
+//! Convergence: a bent beam of two tied parts converges to that of one piece.
 
 use striae::{mesh::generate::Block, prelude::*};
 

@@ -81,7 +81,7 @@ pub fn unevenness(run: &Finished) -> f64 {
     differences.fold(0.0, f64::max) / mean.norm()
 }
 
-/// What the only tie amounts to at the end.
+/// Report of the only tie at the end.
 pub fn glue(run: &Finished) -> TieReport {
     ties(&run.problem, &run.state).remove(0)
 }

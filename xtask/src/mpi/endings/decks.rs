@@ -11,8 +11,8 @@ pub const PAD: Pad = Pad {
     output: "checkpoint_every = 10",
 };
 
-/// The same in smaller increments: `mpirun` waits a second before it passes SIGTERM on, when
-/// steps must be left, however fast the machine is.
+/// Pad in smaller increments: `mpirun` waits a second before it passes SIGTERM on, and steps must
+/// remain then, however fast the machine is.
 pub const LONG: Pad = Pad {
     increments: [10, 120],
     ..PAD

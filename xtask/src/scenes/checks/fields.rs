@@ -152,8 +152,8 @@ mod tests {
         law::Law,
     };
 
-    /// What fails on a unit square whose nodes have these pressures, gaps and friction
-    /// along `x`.
+    /// Checks that fail on a unit square whose nodes have these pressures, gaps and friction along
+    /// `x`.
     fn failed(pressure: [f64; 4], gap: [f64; 4], friction: [f64; 4]) -> Vec<&'static str> {
         let mut pair = scene(0, Dialect::default()).pairs.remove(0);
         (pair.law, pair.cap) = (Law::Coulomb(0.3), None);

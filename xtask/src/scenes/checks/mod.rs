@@ -1,4 +1,4 @@
-//! What must hold in the output of a run, whatever the program thinks.
+//! Laws that must hold in the output of any run, whatever the program reports.
 //!
 //! | check | bound |
 //! | --- | --- |
@@ -19,10 +19,10 @@
 //! | `refined` | forces are those of a finer mesh, of what the scene is a half of, or of other cells |
 //! | `stands` | what has to stay where it is stays, and what is pushed gets there |
 //!
-//! Forces and energies below [`round_off`] are none: where nothing is pressed, roundings would be
-//! held against each other.
+//! Forces and energies below [`round_off`] count as zero: if nothing is pressed, round-off would be
+//! compared with round-off.
 //!
-//! A measure is a value over its bound: at most 1 is well.
+//! A measure is a value over its bound: at most 1 is good.
 
 mod balance;
 mod claims;
@@ -60,16 +60,16 @@ pub const NAMES: [&str; 16] = [
     "stands",
 ];
 
-/// What a check found at its worst.
+/// Worst finding of a check.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Worst {
     /// Value over the bound.
     pub measure: f64,
-    /// Where.
+    /// Place.
     pub place: String,
 }
 
-/// What all checks found in one run.
+/// Findings of all checks in one run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Findings {
     /// The worst of each check.
@@ -113,10 +113,10 @@ impl Findings {
     }
 }
 
-/// Checks the output of a run; of one that stopped, what it wrote.
+/// Checks the output of a run; if it stopped, the output written until then.
 ///
 /// # Errors
-/// What is wrong with a file, in words.
+/// Returns the fault of a file, in words.
 pub fn check(
     folder: &Path,
     scene: &Scene,

@@ -1,16 +1,16 @@
-//! What is left of forces and energies where there are none.
+//! Round-off of forces and energies that should vanish.
 //!
-//! A program sums forces of elements that are differences of stresses in doubles. Of a body
-//! with Young's modulus `E`, elements of size `h` and volume `V` they leave about
+//! Programs sum forces of elements that are differences of stresses in doubles. For a body with
+//! Young's modulus `E`, elements of size `h` and volume `V` they leave about
 //!
 //! ```text
 //! force:  1e-12 E h^2        energy:  1e-14 E V
 //! ```
 //!
-//! some thousand and some ten roundings. Forces of a run that presses nothing are to be held
-//! against that, not against each other. Beside a much softer body this would be much: no floor
-//! is above `1e-8 E h^2` and `1e-9 E V` of the softest one, where a strain of one part in a
-//! thousand makes `1e-3 E h^2` on every facet and `1e-6 E V`.
+//! some thousand and some ten roundings. Forces of a run without pressure are to be compared with
+//! that, not with each other. Beside a much softer body this would be large: no floor is above
+//! `1e-8 E h^2` and `1e-9 E V` of the softest one, where a strain of one part in a thousand makes
+//! `1e-3 E h^2` on every facet and `1e-6 E V`.
 
 use crate::scenes::scene::{Body, Scene, Shape};
 

@@ -95,7 +95,7 @@ fn resultants(findings: &mut Findings, pair: &str, history: &History) {
     }
 }
 
-/// What must be at the ends of the steps.
+/// Checks what must hold at the ends of the steps.
 fn contact(findings: &mut Findings, scene: &Scene, history: &History) {
     for (index, step) in scene.steps.iter().enumerate() {
         let end = scene.end_of(index);
@@ -217,13 +217,13 @@ mod tests {
         })
     }
 
-    /// What fails in a press whose rows are well but for changes of one cell each.
+    /// Checks that fail in a press whose rows are correct except for changes of one cell each.
     fn failed(changes: &[(usize, &str, &str)]) -> Vec<&'static str> {
         let scene = presses().next().unwrap();
         failed_in(&scene, 1.0, changes)
     }
 
-    /// The same with forces and energies `scale` times as large.
+    /// Checks that fail with forces and energies `scale` times as large.
     fn failed_in(scene: &Scene, scale: f64, changes: &[(usize, &str, &str)]) -> Vec<&'static str> {
         let names: Vec<&str> = NAMES.split(',').collect();
         let mut rows = [

@@ -20,12 +20,12 @@ impl Placement {
         rotation(self.axis, self.degrees.to_radians())
     }
 
-    /// Where a point comes to.
+    /// Image of a point.
     pub fn point(&self, x: Vector) -> Vector {
         plus(applied(&self.matrix(), x), self.shift)
     }
 
-    /// What a direction becomes.
+    /// Direction after the rotation of the deck.
     pub fn direction(&self, v: Vector) -> Vector {
         if self.degrees == 0.0 {
             return v;

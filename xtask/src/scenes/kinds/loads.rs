@@ -23,7 +23,8 @@ struct Laid {
     softest: f64,
 }
 
-/// Where the middle of the block is, and its width, over the half width and the width of the base.
+/// Position of the centre of the block, and its width, over the half width and the width of the
+/// base.
 struct Place {
     middle: [f64; 2],
     share: [f64; 2],
@@ -132,7 +133,11 @@ pub fn forces(random: &mut Random, _: Dialect) -> Scene {
             laid.scene.claims.push(claim);
         }
     } else {
-        laid.scene.ending = Ending::Stops(&["limit of friction", "no equilibrium", "lets go"]);
+        laid.scene.ending = Ending::Stops(&[
+            "limit of friction",
+            "no equilibrium",
+            "nothing else restrains",
+        ]);
     }
     laid.scene
 }

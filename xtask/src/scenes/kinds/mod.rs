@@ -31,21 +31,21 @@ mod trilith;
 
 use super::{random::Random, scene::Scene};
 
-/// What the program under test understands.
+/// Features that the program under test understands.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Dialect {
-    /// Whether pairs have the key `initial`.
+    /// Support of the key `initial` of pairs.
     pub initial: Choice,
     /// The method of contact to ask for; the program's default if absent.
     pub enforcement: Option<&'static str>,
 }
 
-/// Whether the program has a key.
+/// Support of a key by the program.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Choice {
-    /// It has.
+    /// The program has the key.
     Known,
-    /// It has not.
+    /// The program does not have the key.
     #[default]
     Unknown,
 }

@@ -34,7 +34,7 @@ impl Units {
     }
 }
 
-/// How a scene stands in space.
+/// Orientation of a scene in space.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Stance {
     /// As in the local frame, perhaps shifted.
@@ -43,7 +43,7 @@ pub enum Stance {
     Any,
 }
 
-/// Where a scene stands.
+/// Placement of a scene.
 pub fn placement(random: &mut Random, units: Units, stance: Stance) -> Placement {
     let far = random.one_of(&[0.0, 0.0, 1.0, 10.0]) * units.length;
     let mut any = || [0; 3].map(|_| random.between(-1.0, 1.0));
@@ -60,7 +60,7 @@ pub fn placement(random: &mut Random, units: Units, stance: Stance) -> Placement
     }
 }
 
-/// How far a scene moves.
+/// Magnitude of the motion of a scene.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Strains {
     /// So little that linear elasticity may do.

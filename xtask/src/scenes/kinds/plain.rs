@@ -33,13 +33,13 @@ pub struct Stack {
     pub area: f64,
 }
 
-/// How two blocks begin.
+/// Start of two blocks.
 pub struct Wanted {
     /// Between them, in facets; negative where they overlap.
     pub gap: f64,
-    /// How far they are pressed.
+    /// Magnitude of the compression.
     pub strains: Strains,
-    /// How they stand in space.
+    /// Orientation in space.
     pub stance: Stance,
 }
 

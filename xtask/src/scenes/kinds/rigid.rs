@@ -69,7 +69,7 @@ impl Footing {
         0.3 * self.high
     }
 
-    /// How far a sheet is below the block, which is around the origin at height zero.
+    /// Clearance between a sheet and the block, which is around the origin at height zero.
     fn clearance(&self, positions: &[Vector], facets: &[[usize; 4]]) -> f64 {
         const SAMPLES: i32 = 20;
         let radius = 0.5 * self.plan[0].min(self.plan[1]);

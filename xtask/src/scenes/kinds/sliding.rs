@@ -1,6 +1,6 @@
 //! Blocks that slide over a larger one all the time: tools, reversals, long ways, rates.
 //!
-//! Where all nodes slip, the integral of friction over that of pressure is the coefficient of
+//! If all nodes slip, the integral of friction over that of pressure is the coefficient of
 //! Coulomb's law, and the resultant lies on the slip surface of any law, with the mean normal.
 
 use super::{

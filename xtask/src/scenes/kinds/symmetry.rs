@@ -13,7 +13,7 @@ use crate::scenes::{
     scene::{Block, Body, End, Ending, Scene, Step},
 };
 
-/// How much there is of a scene.
+/// Part of a scene that is modelled.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Part {
     Whole,

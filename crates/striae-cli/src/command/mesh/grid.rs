@@ -73,7 +73,7 @@ pub fn write_surface(surface: &RigidSurfaceMesh, file: &Path) -> Result<(), Outp
     vtk::write(file, &grid)
 }
 
-/// How often each of so many things is a member.
+/// Number of times that each of so many items is a member.
 fn codes(count: usize, members: impl Iterator<Item = usize>) -> Values {
     let mut codes = vec![0; count];
     members.for_each(|at| codes[at] += 1);

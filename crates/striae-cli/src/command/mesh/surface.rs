@@ -1,4 +1,4 @@
-//! What is drawn of a mesh: its boundary, facets in the colours of their sets.
+//! Picture of a mesh: its boundary, with facets in the colours of their sets.
 
 use striae::mesh_file::RigidSurfaceMesh;
 use striae_mesh::{Face, Mesh, Vec3};

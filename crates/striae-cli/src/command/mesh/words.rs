@@ -1,4 +1,4 @@
-//! What a mesh file holds, in words and numbers.
+//! Description of a mesh file, in words and numbers.
 
 use std::{collections::BTreeMap, fmt::Write, path::Path};
 
@@ -85,7 +85,7 @@ fn shape(reading: &Reading, quality: &Quality) -> String {
         format!("{number} ({scaled:.4})")
     });
     let mut line = format!(
-        "  smallest scaled Jacobians, 1 at best, of elements {}",
+        "  smallest scaled Jacobians (at best 1), of elements {}",
         poorest.collect::<Vec<_>>().join(", ")
     );
     if !quality.slivers.is_empty() {

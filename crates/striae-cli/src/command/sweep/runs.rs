@@ -26,11 +26,11 @@ const PAUSE: Duration = Duration::from_millis(50);
 /// State or end of a run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Outcome {
-    /// It has not begun.
+    /// The run has not begun.
     Waiting,
-    /// It has completed.
+    /// The run has completed.
     Done,
-    /// It has not.
+    /// The run has failed.
     Failed {
         /// Exit code; none if a signal ended it, or it did not start.
         code: Option<i32>,
@@ -55,7 +55,7 @@ impl Outcome {
     }
 }
 
-/// Runs under way.
+/// Runs in progress.
 struct Runs<'s> {
     interrupt: &'s Interrupt,
     alive: Mutex<BTreeMap<usize, Child>>,
@@ -145,7 +145,7 @@ impl Runs<'_> {
                 failed(code, reason(&words))
             }
             Some(Err(cause)) => failed(None, cause.to_string()),
-            None => failed(None, "it is gone".to_owned()),
+            None => failed(None, "its process disappeared".to_owned()),
         }
     }
 
@@ -177,7 +177,7 @@ fn ask_to_stop(child: &Child) {
     }
 }
 
-/// Does nothing: the console tells all processes itself.
+/// Does nothing: the console informs all processes itself.
 #[cfg(not(unix))]
 fn ask_to_stop(_: &Child) {}
 
@@ -187,5 +187,8 @@ fn reason(said: &[u8]) -> String {
     let mut lines = said.lines().map(str::trim).filter(|line| {
         !line.is_empty() && !line.starts_with("warning:") && !line.starts_with("stopping after")
     });
-    lines.next().unwrap_or("it ended without a word").to_owned()
+    lines
+        .next()
+        .unwrap_or("it ended without a message")
+        .to_owned()
 }

@@ -47,7 +47,7 @@ displacement = [
     )
 }
 
-/// What is printed for a deck, or the failure; pictures go to `folder`.
+/// Printed text for a deck, or the failure; pictures are written to `folder`.
 fn said(deck: &str, folder: &Path) -> Result<String, Failure> {
     let file = tempfile::Builder::new().suffix(".toml").tempfile().unwrap();
     std::fs::write(&file, deck).unwrap();

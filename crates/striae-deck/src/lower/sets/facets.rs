@@ -90,7 +90,7 @@ pub(super) fn facets(
             let set = &set.value.0;
             Found {
                 members: mesh.boundary_of(&elements),
-                hint: Some(format!("element set `{set}` is inside of the body")),
+                hint: Some(format!("element set `{set}` is inside the body")),
             }
         }
         raw::FacetMembers::Listed(raw) => listed_facets(mesh, body, raw, faults)?.into(),

@@ -1,9 +1,9 @@
 //! Members of a set, and what to say where there are none.
 
-/// What a definition chooses.
+/// Members that a definition selects.
 pub(super) struct Found<T> {
     pub(super) members: Vec<T>,
-    /// Why there may be none.
+    /// Reason why there may be none.
     pub(super) hint: Option<String>,
 }
 

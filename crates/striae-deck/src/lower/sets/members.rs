@@ -154,7 +154,7 @@ pub(super) fn union<T: Ord + Copy>(
     Some(named(kind, sets, body, &raw.union.as_ref()?.value, faults)?.concat())
 }
 
-/// What several sets have in common.
+/// Common members of several sets.
 pub(super) fn common<T: Ord + Copy>(
     kind: &'static str,
     sets: &Sets<T>,

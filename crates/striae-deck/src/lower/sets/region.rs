@@ -1,4 +1,4 @@
-//! What is in a region.
+//! Members of sets in a region.
 
 use super::found::Found;
 use crate::{
@@ -11,7 +11,7 @@ use crate::{
 };
 use striae_mesh::{ElementId, Face, Mesh, NodeId, Region};
 
-/// A region that members are looked for in.
+/// A region in which members are searched.
 pub(super) struct Within(Region);
 
 impl Within {
@@ -24,7 +24,7 @@ impl Within {
         found(mesh, mesh.elements_of(&mesh.nodes_in(&self.0)))
     }
 
-    /// Those of some facets with all their corners in the region.
+    /// Facets, out of the given ones, with all corners in the region.
     pub(super) fn facets(&self, mesh: &Mesh, of: &[Face]) -> Found<Face> {
         found(mesh, mesh.faces_among(of, &mesh.nodes_in(&self.0)))
     }
@@ -33,7 +33,7 @@ impl Within {
 fn found<T>(mesh: &Mesh, members: Vec<T>) -> Found<T> {
     let (low, high) = mesh.bounds();
     let hint = format!(
-        "the body reaches from ({}, {}, {}) to ({}, {}, {})",
+        "the body extends from ({}, {}, {}) to ({}, {}, {})",
         low.x, low.y, low.z, high.x, high.y, high.z
     );
     Found {

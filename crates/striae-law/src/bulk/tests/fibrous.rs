@@ -196,18 +196,18 @@ fn inadmissible_fibres_are_refused() {
     let x = [1.0, 0.0, 0.0];
     assert_eq!(
         refused(rubber(), &[]),
-        "there is no family of fibres, at least one is needed"
+        "there is no family of fibres, but at least one is needed"
     );
     assert_eq!(
         refused(rubber(), &[family(exponential(0.4), x)]),
-        "`dispersion` of family 0 is 0.4, it must be from 0 to 1/3"
+        "`dispersion` of family 0 is 0.4, but it must be from 0 to 1/3"
     );
     assert_eq!(
         refused(
             rubber(),
             &[family(FibreStiffness::Linear { modulus: -1.0 }, x)]
         ),
-        "`modulus` of family 0 is -1, it must be positive"
+        "`modulus` of family 0 is -1, but it must be positive"
     );
     assert_eq!(
         refused(rubber(), &[family(exponential(0.1), [0.0; 3])]),
@@ -216,7 +216,7 @@ fn inadmissible_fibres_are_refused() {
     let [.., linear] = laws();
     assert_eq!(
         refused(linear, &[family(exponential(0.1), x)]),
-        "fibres need a neo-Hookean solid or rubber that does not relax around them, not one that is linear elastic"
+        "fibres need a neo-Hookean solid or rubber without relaxation around them, not a solid that is linear elastic"
     );
     let material = fibrous(rubber(), &[family(exponential(0.0), x)]);
     let far = Matrix3::from_diagonal(&[6.0, 0.4, 0.4].into());

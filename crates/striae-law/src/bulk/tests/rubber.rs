@@ -205,7 +205,7 @@ fn gents_law_ends_where_chains_are_straight() {
     let error = material.response(&stretched(3.0)).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "the invariant I1 - 3 is 6.666667e0, the law ends at 5.000000e0"
+        "the invariant I1 - 3 is 6.666667e0, but the law ends at 5.000000e0"
     );
 }
 

@@ -206,7 +206,7 @@ fn constants_that_give_no_sound_friction_are_refused() {
         viscous: 0.0,
     };
     assert!(told(RateDependence::decay(steep)).contains("at least 1"));
-    assert!(told(RateDependence::table(&[0.0, 1.0], &[1.0])).contains("as many of both"));
+    assert!(told(RateDependence::table(&[0.0, 1.0], &[1.0])).contains("equally many of both"));
     assert!(told(RateDependence::table(&[0.0, 0.0], &[1.0, 1.0])).contains("must ascend"));
     assert!(told(RateDependence::table(&[0.0, 1.0], &[1.0, 0.0])).contains("factors = 0"));
     let power = PressureDependence::power_law(0.0, 1.0, None).unwrap_err();

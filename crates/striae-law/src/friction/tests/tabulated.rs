@@ -1,4 +1,4 @@
-//! What is particular to tabulated friction.
+//! Properties specific to tabulated friction.
 
 use nalgebra::Vector3;
 use num_dual::{Dual64, gradient};
@@ -52,7 +52,7 @@ fn upper(friction: &Friction, a: &Vector3<f64>, d: &Vector3<f64>) -> Vector3<f64
     -slipping(&friction.kernel(&-Vector3::z(), &textures), cap, d)
 }
 
-/// The same where the lower surface has the texture `a`.
+/// Traction where the lower surface has the texture `a`.
 fn lower(friction: &Friction, a: &Vector3<f64>, d: &Vector3<f64>) -> Vector3<f64> {
     let textures = Textures {
         own: None,
@@ -236,14 +236,12 @@ fn tables_that_are_no_curve_are_refused() {
         (
             vec![0.0, 90.0, 180.0],
             vec![0.1, 0.0, 0.2],
-            "mu = 0 at the angle 90.000 degrees is refused: it must be positive and finite, \
-             for friction would create energy or vanish there",
+            "mu = 0 at the angle 90.000 degrees is refused: it must be positive and finite, otherwise friction would create energy or vanish there",
         ),
         (
             vec![0.0, 90.0, 180.0],
             vec![0.1, f64::INFINITY, 0.2],
-            "mu = inf at the angle 90.000 degrees is refused: it must be positive and finite, \
-             for friction would create energy or vanish there",
+            "mu = inf at the angle 90.000 degrees is refused: it must be positive and finite, otherwise friction would create energy or vanish there",
         ),
         (
             vec![0.0, f64::NAN, 180.0],

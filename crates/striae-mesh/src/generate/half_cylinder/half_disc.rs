@@ -1,7 +1,7 @@
 //! A half disc of quadrangles, fine at the end of its middle radius.
 //!
-//! It is divided into a rectangular core below the flat side and a
-//! band of radial lines around the core's three other sides:
+//! The half disc is divided into a rectangular core below the flat side and a band of radial lines
+//! around the core's three other sides:
 //!
 //! ```text
 //!   flat  +----+--------+----+

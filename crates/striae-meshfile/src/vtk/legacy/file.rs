@@ -13,7 +13,7 @@ pub(super) struct File<'a> {
     pub(super) form: Form,
     /// Part of the version before the point.
     pub(super) version: u32,
-    /// Where the line begins that was read last.
+    /// Location of the line that was read last.
     pub(super) place: Place,
 }
 
@@ -200,4 +200,4 @@ impl<'a> Words<'a> {
 }
 
 const END: &str = "the end of the file";
-const NO_TEXT: &str = "bytes that are no text";
+const NO_TEXT: &str = "bytes that are not text";

@@ -29,8 +29,8 @@ use crate::{
     state::State,
 };
 
-/// How far the first increment would go beyond the gap without contact, over the gap or, if that
-/// is less, the facet size.
+/// Penetration of the gap by the first increment without contact, over the gap or, if that is less,
+/// the facet size.
 const BEYOND: f64 = 0.1;
 /// Largest coefficient over `E T/h`.
 const LARGEST: f64 = 1e-3;
@@ -110,8 +110,8 @@ fn loads(context: &StepContext, s: f64) -> f64 {
     problem.share.sum(sum) + gravity * points
 }
 
-/// What resists the motion of every pair from `state` to the fraction `s` of the step in
-/// the time `elapsed`; nothing at the end of the step.
+/// Dashpots that resist the motion of every pair from `state` to the fraction `s` of the step in
+/// the time `elapsed`; none at the end of the step.
 pub(super) fn dashpots(
     context: &StepContext,
     state: &State,

@@ -1,18 +1,18 @@
-//! Whether iterations have come to their end.
+//! Tests of whether the iterations have ended.
 
 use striae_contact::{segment::ON_EDGE, unknowns::Status};
 
 use super::Attempt;
 use crate::{assembly::Assembled, newton::cycling::WINDOW, norms::Norms, outcome::CutBack};
 
-/// What an increment was accepted for.
+/// Criterion by which an increment was accepted.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Acceptance {
     /// Its residual is below the tolerance.
     #[default]
     Converged,
-    /// It goes back and forth over a jump of the integrals of contact, and no state is nearer to a
-    /// solution.
+    /// The iterations oscillate across a jump of the integrals of contact, and no state is closer
+    /// to a solution.
     AtJump {
         /// The residual that is left.
         residual: f64,
@@ -20,8 +20,9 @@ pub enum Acceptance {
 }
 
 impl Attempt<'_> {
-    /// Whether the labels of all nodes are those of the iteration before, where friction
-    /// falls with the slip rate: a node that begins to slip may have the row of another rate.
+    /// Returns whether the labels of all nodes equal those of the previous iteration, where
+    /// friction falls with the slip rate: a node that begins to slip may have the row of another
+    /// rate.
     pub(super) fn labels_rest(&self, assembled: &Assembled) -> bool {
         let frictions = &self.context.plan.frictions;
         let contacts = self.trial.tractions.iter().zip(&assembled.contacts);
@@ -38,14 +39,15 @@ impl Attempt<'_> {
             })
     }
 
-    /// Whether the last iterations go back and forth over a jump of the integrals of contact.
+    /// Returns whether the last iterations oscillate across a jump of the integrals of contact.
     ///
-    /// A corner closer to an opposing edge than [`ON_EDGE`] of the facet counts as on it. What
-    /// contact integrates jumps where a corner crosses that limit, by that part of the facet
-    /// times its length at most. Newton's method can go back and forth over the jump: the
-    /// residual does not fall, no status changes, and the vertices of a polygon are in turn
-    /// that corner and two crossings. No solution is nearer than the jump then.
+    /// A corner closer to an opposing edge than [`ON_EDGE`] of the facet counts as on it. The
+    /// integrals of contact jump where a corner crosses that limit, by at most that part of the
+    /// facet times its length. Newton's method can oscillate across the jump: the residual does not
+    /// fall, no status changes, and the vertices of a polygon are alternately that corner and two
+    /// crossings. No solution is closer than the jump then.
     pub(super) fn jumps(&self) -> bool {
+        // The jump is at most that part of a facet; a larger residual has another cause.
         const LARGEST: f64 = 0.1 * ON_EDGE;
         let Some(from) = self.iterations.len().checked_sub(WINDOW) else {
             return false;
@@ -54,6 +56,7 @@ impl Attempt<'_> {
         let least = last.clone().fold(f64::INFINITY, f64::min);
         let most = last.fold(0.0, f64::max);
         most <= LARGEST
+            // A residual that still falls may get below the tolerance.
             && least > 0.5 * most
             && self.history.goes_back_and_forth()
             && self
@@ -62,8 +65,10 @@ impl Attempt<'_> {
                 .is_empty()
     }
 
-    /// Whether to go on.
+    /// Decides whether to continue, and returns the reason if not.
     pub(super) fn judge(&self, number: usize, norms: &Norms) -> Result<(), CutBack> {
+        // The force norm is relative to the forces of the model, so 1e8 is out of reach of any
+        // converging iteration.
         if !norms.largest().is_finite() || norms.force > 1e8 {
             return Err(CutBack::Diverged {
                 iteration: number,

@@ -59,7 +59,7 @@ impl End<'_> {
         bodies.map(of_body).sum()
     }
 
-    /// That of an element; both ends of an increment can be evaluated.
+    /// Work of an element; both ends of an increment can be evaluated.
     fn of_element(
         &self,
         body: usize,

@@ -1,4 +1,4 @@
-//! What a workspace remembers between runs: it is part of a checkpoint.
+//! Memory of a workspace between runs, stored in checkpoints.
 
 use serde::{Deserialize, Serialize};
 use striae_condensed::{Experience, FactoredInterior, Growth};
@@ -6,20 +6,19 @@ use striae_condensed::{Experience, FactoredInterior, Growth};
 use super::Workspace;
 use crate::{layout::Extent, newton::course::Course, problem::Problem};
 
-/// What the linear system has grown to, which decides in which order it is eliminated, what
-/// its solver has learnt, and where the last increment came from: all bear on the last bits
-/// of results.
+/// Size of the linear system, which decides the order of elimination, experience of its solver, and
+/// start of the last increment: all of these affect the last bits of results.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Memory {
-    /// What has traction unknowns.
+    /// Nodes with traction unknowns.
     pub extent: Extent,
     /// By what the pattern has grown beyond the elements.
     pub growth: Growth,
-    /// What earlier matrices have taught the solver.
+    /// Experience of the solver from earlier matrices.
     pub solver: Experience,
-    /// What its older factors were made of.
+    /// Interior that the older factors of the solver were made of.
     pub interior: Option<FactoredInterior>,
-    /// What the last increment started from.
+    /// Start of the last increment.
     pub course: Option<Course>,
 }
 
@@ -45,7 +44,7 @@ impl Workspace {
         solver.recall(&memory.solver, memory.interior.as_ref());
     }
 
-    /// What it has grown to and its solver has learnt.
+    /// Size of the linear system and experience of its solver.
     pub fn memory(&self) -> Memory {
         let system = self.system.as_ref();
         system.map_or_else(Memory::default, |system| {

@@ -68,7 +68,7 @@ impl Board {
     }
 }
 
-/// What one thread holds, and names of the other.
+/// Data that one thread holds, and its references to the other's.
 struct Part<'a> {
     nodes: Range<usize>,
     other_nodes: Vec<usize>,

@@ -1,4 +1,5 @@
-//! Directions painted at fixed places on finer and finer meshes: each is held against the next one.
+//! Directions painted at fixed places on a sequence of refined meshes: each is compared with the
+//! next one.
 
 use striae_mesh::Vec3;
 use striae_verify::fitted_rate;

@@ -51,7 +51,7 @@ impl Shape {
         }
     }
 
-    /// The same with every third quadrilateral cut into triangles.
+    /// Copy of the shape with every third quadrilateral split into triangles.
     pub fn partly_triangular(mut self) -> Self {
         let cut = |(k, facet): (usize, [SurfaceNode; 4])| match (k % 3, facet) {
             (0, [a, b, c, d]) => vec![[a, b, c, c], [a, c, d, d]],
@@ -61,7 +61,7 @@ impl Shape {
         self
     }
 
-    /// The same at other places.
+    /// Copy of the shape with moved nodes.
     pub fn moved(&self, motion: impl Fn(&Vec3) -> Vec3) -> Self {
         Self {
             positions: self.positions.iter().map(motion).collect(),

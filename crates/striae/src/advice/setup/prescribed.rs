@@ -8,7 +8,7 @@ use striae_model::{BodyId, ContactSurface, Freedom, Load, LoadKind, Model, Pair,
 
 use super::super::{Advice, Topic};
 
-/// Component of a normal that is none.
+/// Component of a normal that counts as zero.
 const ACROSS: f64 = 0.1;
 /// Names of the components.
 const AXES: [&str; 3] = ["x", "y", "z"];
@@ -94,7 +94,7 @@ fn idle(model: &Model, step: &Step, load: &Load, prescribed: &Prescribed, advice
     };
     let along: Vec<&str> = acting.iter().map(|axis| AXES[*axis]).collect();
     let text = format!(
-        "step `{}`: the {kind} on facets `{}` of body `{}` acts on nodes whose displacements along {} are all prescribed, so it does nothing but change reactions; release these, or leave it out",
+        "step `{}`: the {kind} on facets `{}` of body `{}` acts on nodes whose displacements along {} are all prescribed, so it only changes reactions; release these nodes, or remove the load",
         step.name,
         load.set,
         body.name,
@@ -135,7 +135,7 @@ fn undecided_text(model: &Model, pair: &Pair, step: &Step, advice: &mut Advice) 
         return;
     };
     let text = format!(
-        "pair `{}`: in step `{}` displacements prescribe all nodes of the contact surface of `{}` along its normal, and `{}` is not free: contact can do nothing there, whatever they overlap by; prescribe nodes away from the contact surface, such as those of the opposite face",
+        "pair `{}`: in step `{}` displacements prescribe all nodes of the contact surface of `{}` along its normal, and `{}` is not free: contact has no effect there, whatever the overlap; prescribe nodes away from the contact surface, such as those of the opposite face",
         pair.name, step.name, model.bodies[body.0].name, model.rigid_surfaces[rigid.0].name
     );
     advice.warn(Topic::Hold, &pair.name, text);

@@ -130,15 +130,15 @@ fn wrong_hardening_is_refused() {
     let text = |refused: Result<Hardening, InadmissibleHardening>| refused.unwrap_err().to_string();
     assert_eq!(
         text(Hardening::linear(0.0, 1.0)),
-        "`yield_stress` is 0, it must be positive and finite"
+        "`yield_stress` is 0, but it must be positive and finite"
     );
     assert_eq!(
         text(Hardening::linear(1.0, -1.0)),
-        "`hardening_modulus` is -1, it must be at least 0 and finite"
+        "`hardening_modulus` is -1, but it must be at least 0 and finite"
     );
     assert_eq!(
         text(Hardening::voce(2.0, 1.0, 1.0, 0.0)),
-        "the stress of saturation is 1, it must be at least `yield_stress`, 2"
+        "the saturation stress is 1, but it must be at least `yield_stress`, 2"
     );
     assert_eq!(
         text(Hardening::table(&[[0.1, 1.0]])),

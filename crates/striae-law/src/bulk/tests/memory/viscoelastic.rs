@@ -205,6 +205,6 @@ fn wrong_branches_are_refused_by_number() {
     let error = Viscoelastic::new(law, &wrong).unwrap_err().to_string();
     assert_eq!(
         error,
-        "`time` of branch 1 is 0, it must be positive and finite"
+        "`time` of branch 1 is 0, but it must be positive and finite"
     );
 }
