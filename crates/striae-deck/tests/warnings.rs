@@ -92,6 +92,8 @@ fn increment(state: State, acceptance: Acceptance) -> Increment {
         interferences: vec![Vec::new()],
         overlaps: Vec::new(),
         doubts: Vec::new(),
+        selections: Vec::new(),
+        has_reselected: false,
         acceptance,
     }
 }

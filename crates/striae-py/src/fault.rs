@@ -49,7 +49,9 @@ pub fn raised(error: Error, place: &str) -> PyErr {
         | Error::File(_)
         | Error::Division(_)
         | Error::Elsewhere { .. }
-        | Error::NotCompleted => PyRuntimeError::new_err(error.to_string()),
+        | Error::NotCompleted
+        | Error::NotFromTheStart => PyRuntimeError::new_err(error.to_string()),
+        Error::Unlike(_) => refused("parameters", error),
         Error::Problem(_)
         | Error::NotTogether
         | Error::Mesh(_)

@@ -35,7 +35,7 @@ use std::{
 use striae_condensed::{Growth, Partition, Tangent};
 use striae_contact::{
     complementarity::Iteration, configuration::Configuration, evaluation::Evaluation,
-    segment::Derivatives, selection::Selection, side::Side, unknowns::Tractions,
+    segment::Derivatives, selection::Selection, side::Side,
 };
 use striae_mesh::Vec3;
 use striae_sparse::{PlacedBlock, SparseMatrix};
@@ -49,8 +49,6 @@ use crate::{
     node::GlobalNode,
     norms::Norms,
     outcome::CutBack,
-    problem::Problem,
-    rigid::Pose,
     state::{NodalForces, State},
 };
 

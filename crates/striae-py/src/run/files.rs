@@ -50,11 +50,13 @@ fn replayed(run: &Run, folder: &Path, case: &str, every: usize) -> Result<(), Ou
             interferences: Vec::new(),
             overlaps: Vec::new(),
             doubts: Vec::new(),
+            selections: Vec::new(),
+            has_reselected: false,
             acceptance: Acceptance::Converged,
         };
         recorder.increment(problem, kept.progress, &increment)?;
     }
-    recorder.finish(problem, &finished.state, &finished.ending)?;
+    recorder.finish(problem, &finished.state, &finished.ending, Vec::new())?;
     // What the run itself has counted and judged.
     finished.history.write(&folder.join("history.csv"))?;
     let mut summary = summary.clone();

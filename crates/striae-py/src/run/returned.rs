@@ -131,6 +131,7 @@ pub fn returned(
         state,
         summary: summary.map_err(|error| raised(Error::Output(error), "run"))?,
         history: history.map_err(|error| raised(Error::Output(error), "run"))?,
+        sensitivities: Vec::new(),
     };
     let told = Told { ending, reason };
     let raised = model.raised.clone();

@@ -244,7 +244,7 @@ fn on_rank(
         return Err(failure.to_string());
     }
     let mut watch = watch;
-    let finished = watch.recorder.finish(problem, &state, &ending);
+    let finished = watch.recorder.finish(problem, &state, &ending, Vec::new());
     finished.map_err(|error| said(&error))?;
     Ok(ending)
 }
