@@ -70,11 +70,19 @@ impl Options {
                 _ => return Err(Fault::Option(format!("there is no option `{name}`"))),
             }
         }
-        let new = options.kinds.iter().find(|kind| kinds::is_new(kind));
-        if let Some(kind) = new.filter(|_| options.seeds.end <= kinds::FIRST_OF_ALL) {
-            let first = kinds::FIRST_OF_ALL;
+        let never = options.kinds.iter().find(|kind| {
+            let of = kinds::seeds_of(kind);
+            options.seeds.start >= of.end || options.seeds.end <= of.start
+        });
+        if let Some(kind) = never {
+            let Range { start, end } = kinds::seeds_of(kind);
+            let until = if end == u64::MAX {
+                "on".into()
+            } else {
+                format!("to {}", end - 1)
+            };
             return Err(Fault::Option(format!(
-                "scenes of the kind `{kind}` have seeds from {first} on"
+                "scenes of the kind `{kind}` have seeds from {start} {until}"
             )));
         }
         Ok(options)
@@ -109,6 +117,8 @@ mod tests {
             "--jobs 0",
             "--kind none",
             "--seeds 0..90 --kind pile",
+            "--seeds 100000..100100 --kind bag",
+            "--seeds 200000..200100 --kind pile",
             "--fast 1",
         ] {
             assert!(read(wrong).is_err(), "{wrong}");

@@ -30,6 +30,8 @@ pub struct Scene {
     pub steps: Vec<Step>,
     /// Whether bodies begin inside one another.
     pub start: Start,
+    /// How the deck says what may touch.
+    pub statement: Statement,
     /// Method of contact to ask for.
     pub enforcement: Option<&'static str>,
     /// Ties.
@@ -40,6 +42,16 @@ pub struct Scene {
     pub claims: Vec<Claim>,
     /// A scene that is run beside it, to be held against.
     pub reference: Option<Box<Scene>>,
+}
+
+/// How the deck says what may touch.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Statement {
+    /// By its pairs.
+    Pairs,
+    /// All touches all, with this law where nothing narrower is said. The pairs of the scene are
+    /// those that it comes down to, under their names.
+    All(Law),
 }
 
 /// How a scene may end.
@@ -206,7 +218,7 @@ pub struct Tie {
 #[derive(Clone, Debug)]
 pub struct Pair {
     /// Name.
-    pub name: &'static str,
+    pub name: String,
     /// Sides.
     pub sides: [Side; 2],
     /// Friction.
@@ -217,12 +229,23 @@ pub struct Pair {
     pub decay: Option<(f64, f64)>,
 }
 
+/// Facets of a side that is all the skin of its body.
+pub const SKIN: &str = "skin";
+
+impl Pair {
+    /// Returns true for a body that touches itself.
+    pub fn is_itself(&self) -> bool {
+        let [a, b] = &self.sides;
+        a.owner == b.owner && b.facets.is_none()
+    }
+}
+
 /// A side of a pair.
 #[derive(Clone, Debug)]
 pub struct Side {
     /// Name of the body or rigid surface.
     pub owner: &'static str,
-    /// Facets of the body; `None` of a rigid surface.
+    /// Facets of the body; `None` of a rigid surface, and of a body that is the other side, too.
     pub facets: Option<&'static str>,
     /// Texture.
     pub texture: Option<Texture>,

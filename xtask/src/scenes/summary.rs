@@ -227,9 +227,10 @@ fn iterations(all: &[Judged]) -> String {
         .iter()
         .map(|judged| judged.verdict.seconds)
         .fold(0.0, f64::max);
+    let touched = ended.iter().filter(|j| j.verdict.findings.touched).count();
     let share = 100.0 * cut as f64 / ended.len().max(1) as f64;
     format!(
-        "complete: {} of {}; iterations an increment: median {} (target 4), 99 % {} (target 12), \
+        "complete: {} of {}, with deformable surfaces that touched: {touched}; iterations an increment: median {} (target 4), 99 % {} (target 12), \
          largest {}; scenes with increments cut: {cut}, {share:.1} % (target 3 %); \
          slowest run {slowest:.0} s\n\n",
         ended.len(),

@@ -11,6 +11,7 @@
 //! | `dissipation` | never falls, to 1e-9 of the largest energy |
 //! | `energy` | the balance of energies closes to 1e-6 of the largest |
 //! | `depth` | no node, and no corner of a rigid facet, deeper inside than a tenth of a facet |
+//! | `crossing` | where all touches all, no facets cross deeper than 0.3 of the smaller, see [`crossing`] |
 //! | `ending` | a completed run reached the end of all steps |
 //! | `contact` | pairs carry force at the end of steps that press, none where they are apart |
 //! | `work` | friction gives no node with an own row work: `tau . du <= 1e-4 p h`, see [`work`] |
@@ -26,6 +27,7 @@
 
 mod balance;
 mod claims;
+mod crossing;
 pub mod depth;
 mod fields;
 mod round_off;
@@ -37,11 +39,11 @@ use std::{collections::BTreeMap, path::Path};
 
 use super::{
     output::{Fields, History},
-    scene::{Scene, Start},
+    scene::{Scene, Start, Statement},
 };
 
 /// Names of the checks, in the order of the table.
-pub const NAMES: [&str; 16] = [
+pub const NAMES: [&str; 17] = [
     "ending",
     "contact",
     "resultants",
@@ -53,6 +55,7 @@ pub const NAMES: [&str; 16] = [
     "dissipation",
     "energy",
     "depth",
+    "crossing",
     "work",
     "closed form",
     "sliding",
@@ -78,6 +81,8 @@ pub struct Findings {
     pub told: BTreeMap<&'static str, f64>,
     /// Iterations of the increments.
     pub iterations: Vec<usize>,
+    /// Set where deformable surfaces pressed on each other at some time.
+    pub touched: bool,
 }
 
 impl Findings {
@@ -113,6 +118,14 @@ impl Findings {
     }
 }
 
+/// Facets that cross in the fields.
+#[cfg(test)]
+pub fn crossings(fields: &Fields) -> Findings {
+    let mut findings = Findings::default();
+    crossing::check(&mut findings, fields, 0);
+    findings
+}
+
 /// Checks the output of a run; of one that stopped, what it wrote.
 ///
 /// # Errors
@@ -138,6 +151,9 @@ pub fn check(
             && history.number(increment, "step") == Some(1.0);
         if !fading {
             depth::check(&mut findings, scene, &history, &fields, increment);
+            if scene.statement != Statement::Pairs {
+                crossing::check(&mut findings, &fields, increment);
+            }
         }
     }
     let reference = reference.transpose();
