@@ -49,6 +49,8 @@ pub struct Scene {
 pub enum Statement {
     /// By its pairs.
     Pairs,
+    /// By its pairs, with a normal for each face at an edge, as where all touches all.
+    PairsOfFaces,
     /// All touches all, with this law where nothing narrower is said. The pairs of the scene are
     /// those that it comes down to, under their names.
     All(Law),
@@ -227,6 +229,17 @@ pub struct Pair {
     pub cap: Option<f64>,
     /// Ratio of kinetic to static friction, and the rate of the decay.
     pub decay: Option<(f64, f64)>,
+    /// Where it comes from.
+    pub origin: Origin,
+}
+
+/// Where a pair comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// The scene is about it.
+    Scene,
+    /// All touches all, and so do these.
+    Found,
 }
 
 /// Facets of a side that is all the skin of its body.
@@ -258,6 +271,16 @@ pub enum Texture {
     Uniform(Vector, f64),
     /// Circles or rays (by the key in the deck) about the vertical axis through a point.
     About(&'static str, Vector, f64),
+}
+
+impl Side {
+    /// The label of its surface.
+    pub fn label(&self) -> String {
+        match self.facets {
+            Some(facets) if facets != SKIN => format!("{}.{facets}", self.owner),
+            _ => self.owner.to_owned(),
+        }
+    }
 }
 
 impl Scene {

@@ -11,7 +11,8 @@
 //!
 //! Nothing is told apart: bodies, layers and folds all count alike.
 //! A weighted gap sees no more than the mean over the facets around a node, so corners of coarse
-//! facets sink in; deeper than a share of the smaller facet, by the root of its area, is wrong.
+//! facets sink in; deeper than a share of the size of a facet, the root of its area, is wrong: of the smaller one in
+//! a body, of the larger one between two bodies, whose meshes need not be alike.
 
 use crate::scenes::{
     geometry::{Extent, area, triangles},
@@ -22,7 +23,7 @@ use crate::scenes::{
 
 use super::Findings;
 
-/// Largest depth over the size of the smaller facet.
+/// Largest depth over the size of a facet.
 const CROSSING: f64 = 0.3;
 
 /// How far an axis may point inwards, along the difference of two outward normals: of facets at an
@@ -71,7 +72,11 @@ pub fn check(findings: &mut Findings, fields: &Fields, increment: usize) {
                 continue;
             }
             let depth = deepest(one, other);
-            let size = one.size.min(other.size);
+            let size = if one.body == other.body {
+                one.size.min(other.size)
+            } else {
+                one.size.max(other.size)
+            };
             findings.note("crossing", depth / (CROSSING * size), || {
                 format!(
                     "increment {increment}, {} {:?} through {} {:?}: {depth:.2e} of {size:.2e}",

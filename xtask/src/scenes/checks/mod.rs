@@ -11,7 +11,7 @@
 //! | `dissipation` | never falls, to 1e-9 of the largest energy |
 //! | `energy` | the balance of energies closes to 1e-6 of the largest |
 //! | `depth` | no node, and no corner of a rigid facet, deeper inside than a tenth of a facet |
-//! | `crossing` | where all touches all, no facets cross deeper than 0.3 of the smaller, see [`crossing`] |
+//! | `crossing` | where all touches all, no facets cross deeper than 0.3 of their size, see [`crossing`] |
 //! | `ending` | a completed run reached the end of all steps |
 //! | `contact` | pairs carry force at the end of steps that press, none where they are apart |
 //! | `work` | friction gives no node with an own row work: `tau . du <= 1e-4 p h`, see [`work`] |
@@ -19,6 +19,7 @@
 //! | `sliding` | friction over pressure where all slides is that of the law to 1 % |
 //! | `refined` | forces are those of a finer mesh, of what the scene is a half of, or of other cells |
 //! | `stands` | what has to stay where it is stays, and what is pushed gets there |
+//! | `pairs` | without pairs forces are those with pairs to 1e-8, where the same facets meet |
 //!
 //! Forces and energies below [`round_off`] are none: where nothing is pressed, roundings would be
 //! held against each other.
@@ -31,7 +32,7 @@ mod crossing;
 pub mod depth;
 mod fields;
 mod round_off;
-mod sizes;
+pub mod sizes;
 mod table;
 mod work;
 
@@ -43,7 +44,7 @@ use super::{
 };
 
 /// Names of the checks, in the order of the table.
-pub const NAMES: [&str; 17] = [
+pub const NAMES: [&str; 18] = [
     "ending",
     "contact",
     "resultants",
@@ -61,6 +62,7 @@ pub const NAMES: [&str; 17] = [
     "sliding",
     "refined",
     "stands",
+    "pairs",
 ];
 
 /// What a check found at its worst.
@@ -151,7 +153,7 @@ pub fn check(
             && history.number(increment, "step") == Some(1.0);
         if !fading {
             depth::check(&mut findings, scene, &history, &fields, increment);
-            if scene.statement != Statement::Pairs {
+            if matches!(scene.statement, Statement::All(_)) {
                 crossing::check(&mut findings, &fields, increment);
             }
         }

@@ -2,7 +2,7 @@
 
 use crate::scenes::{
     output::History,
-    scene::{End, Pair, Scene},
+    scene::{End, Origin, Pair, Scene},
     vector::{Vector, length, plus},
 };
 
@@ -136,7 +136,11 @@ fn contact(findings: &mut Findings, scene: &Scene, history: &History) {
         let Some(row) = (0..history.len()).find(at_end) else {
             continue;
         };
-        for pair in &scene.pairs {
+        for pair in scene
+            .pairs
+            .iter()
+            .filter(|pair| pair.origin == Origin::Scene)
+        {
             let forces = sides(history, &pair.name);
             let (of_run, now) = (largest(pair, &forces), largest(pair, &forces[row..=row]));
             let place = |what: &str| {

@@ -3,7 +3,7 @@
 use super::pairs::{friction, texture};
 use crate::scenes::{
     law::Law,
-    scene::{Pair, SKIN, Scene, Side, Start},
+    scene::{Origin, Pair, Scene, Side, Start},
 };
 
 /// `[contact]`, with the law where no pair has one of its own.
@@ -14,6 +14,7 @@ pub fn contact(lines: &mut Vec<String>, scene: &Scene, law: &Law) {
         law: law.clone(),
         cap: None,
         decay: None,
+        origin: Origin::Scene,
         sides: scene.pairs[0].sides.clone(),
     };
     lines.extend(friction(&general).map(|text| format!("friction = {{ {text} }}")));
@@ -22,7 +23,7 @@ pub fn contact(lines: &mut Vec<String>, scene: &Scene, law: &Law) {
     }
     lines.push(String::new());
     for pair in scene.pairs.iter().filter(|pair| is_told(pair, law)) {
-        let [a, b] = pair.sides.each_ref().map(label);
+        let [a, b] = pair.sides.each_ref().map(Side::label);
         lines.push(format!("[[contact.between]]\na = \"{a}\"\nb = \"{b}\""));
         let friction = friction(pair);
         let friction = friction.unwrap_or_else(|| "law = \"frictionless\"".into());
@@ -32,7 +33,7 @@ pub fn contact(lines: &mut Vec<String>, scene: &Scene, law: &Law) {
     for side in sides {
         if let Some(painted) = &side.texture {
             let painted = texture(&scene.placement, painted);
-            let of = label(side);
+            let of = side.label();
             lines.push(format!(
                 "[[contact.surface]]\nof = \"{of}\"\ntexture = {painted}\n"
             ));
@@ -42,14 +43,6 @@ pub fn contact(lines: &mut Vec<String>, scene: &Scene, law: &Law) {
 
 /// Returns true if the law for all does not say all of a pair.
 fn is_told(pair: &Pair, law: &Law) -> bool {
-    let whole = pair.sides.iter().all(|side| !label(side).contains('.'));
+    let whole = pair.sides.iter().all(|side| !side.label().contains('.'));
     !whole || pair.law != *law || pair.cap.is_some() || pair.decay.is_some()
-}
-
-/// The label of a side.
-fn label(side: &Side) -> String {
-    match side.facets {
-        Some(facets) if facets != SKIN => format!("{}.{facets}", side.owner),
-        _ => side.owner.to_owned(),
-    }
 }

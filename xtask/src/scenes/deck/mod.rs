@@ -54,7 +54,7 @@ pub fn text(scene: &Scene) -> String {
         bodies::rigid(&mut lines, &scene.placement, surface);
     }
     match &scene.statement {
-        Statement::Pairs => {
+        Statement::Pairs | Statement::PairsOfFaces => {
             for of_pair in &scene.pairs {
                 pairs::pair(&mut lines, scene, of_pair);
             }

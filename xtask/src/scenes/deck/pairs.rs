@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use crate::scenes::{
     law::Law,
-    scene::{Pair, Placement, Scene, Side, Start, Texture, Tie},
+    scene::{Pair, Placement, Scene, Side, Start, Statement, Texture, Tie},
 };
 
 /// A pair.
@@ -15,6 +15,9 @@ pub fn pair(lines: &mut Vec<String>, scene: &Scene, pair: &Pair) {
     }
     if let Start::Overlapping(Some(initial)) = scene.start {
         lines.push(format!("initial = \"{initial}\""));
+    }
+    if scene.statement == Statement::PairsOfFaces {
+        lines.push("feature_angle = 45".into());
     }
     let enforcement = scene.enforcement;
     lines.extend(enforcement.map(|method| format!("enforcement = \"{method}\"")));

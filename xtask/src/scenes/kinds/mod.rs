@@ -57,8 +57,11 @@ pub enum Choice {
 /// Makes a scene of one kind.
 type Make = fn(&mut Random, Dialect) -> Scene;
 
-/// Names of the kinds and what makes them.
-pub const KINDS: [(&str, Make); 43] = [
+/// Name of a kind, and what makes its scenes.
+type Kind = (&'static str, Make);
+
+/// Kinds whose pairs have names.
+pub const KINDS: [Kind; 43] = [
     ("press", plain::press),
     ("slide", plain::slide),
     ("turn", plain::turn),
@@ -117,13 +120,13 @@ pub const FIRST_OF_ITSELF: u64 = 200_000;
 const OLDEST: usize = 19;
 
 /// Seeds and the kinds that take turns in them.
-const TURNS: [(Range<u64>, &[(&str, Make)]); 3] = [
+const TURNS: [(Range<u64>, &[Kind]); 3] = [
     (0..FIRST_OF_ALL, KINDS.split_at(OLDEST).0),
     (FIRST_OF_ALL..FIRST_OF_ITSELF, &KINDS),
     (FIRST_OF_ITSELF..u64::MAX, &itself::ITSELF),
 ];
 
-fn entry(seed: u64) -> (&'static str, Make) {
+fn entry(seed: u64) -> Kind {
     let turns = TURNS.iter().find(|(seeds, _)| seeds.contains(&seed));
     let (_, kinds) = turns.unwrap_or(&TURNS[2]);
     kinds[(seed % kinds.len() as u64) as usize]
@@ -131,7 +134,7 @@ fn entry(seed: u64) -> (&'static str, Make) {
 
 /// Seeds that a kind takes turns in.
 pub fn seeds_of(name: &str) -> Range<u64> {
-    let has = |kinds: &[(&str, Make)]| kinds.iter().any(|kind| kind.0 == name);
+    let has = |kinds: &[Kind]| kinds.iter().any(|kind| kind.0 == name);
     let mut turns = TURNS.iter().filter(|(_, kinds)| has(kinds));
     let from = turns.next().map_or(0, |(seeds, _)| seeds.start);
     let to = TURNS.iter().rev().find(|(_, kinds)| has(kinds));

@@ -4,7 +4,7 @@ use crate::scenes::{
     law::Law,
     random::Random,
     scene::{
-        Beside, Block, Body, Ending, Material, Pair, Placement, Scene, Shape, Side, Start,
+        Beside, Block, Body, Ending, Material, Origin, Pair, Placement, Scene, Shape, Side, Start,
         Statement, Texture,
     },
     vector::Vector,
@@ -226,6 +226,7 @@ pub fn pair_with(
         decay: (rubs && random.chance(0.1))
             .then(|| (random.between(0.6, 0.95), random.between(0.05, 0.5) * reach)),
         law,
+        origin: Origin::Scene,
     }
 }
 

@@ -8,7 +8,7 @@ mod spiral;
 mod strips;
 
 use super::{
-    Dialect, Make,
+    Dialect, Kind,
     parts::{Stance, Units, coulomb, placement, scene},
     simple::{gridded, rubbery},
 };
@@ -16,12 +16,12 @@ use crate::scenes::{
     grid::Grid,
     law::Law,
     random::Random,
-    scene::{Body, Pair, Rigid, RigidShape, SKIN, Scene, Side, Statement},
+    scene::{Body, Origin, Pair, Rigid, RigidShape, SKIN, Scene, Side, Statement},
     vector::Vector,
 };
 
 /// Names of the kinds and what makes them.
-pub const ITSELF: [(&str, Make); 11] = [
+pub const ITSELF: [Kind; 11] = [
     ("slots", slots::slots),
     ("pins", slots::pins),
     ("folded", strips::folded),
@@ -85,6 +85,7 @@ fn everything(
         law: law.clone(),
         cap: None,
         decay: None,
+        origin: Origin::Found,
     };
     let mut pairs = Vec::new();
     for (at, body) in bodies.iter().enumerate() {
