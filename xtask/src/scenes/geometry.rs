@@ -46,6 +46,20 @@ impl Extent {
         extent
     }
 
+    /// Lowest corner.
+    pub fn low(&self) -> Vector {
+        self.low
+    }
+
+    /// Highest corner.
+    pub fn high(&self) -> Vector {
+        self.high
+    }
+
+    /// Returns true if two boxes have a common point.
+    pub fn meets(&self, other: &Self) -> bool {
+        (0..3).all(|axis| self.low[axis] <= other.high[axis] && other.low[axis] <= self.high[axis])
+    }
     /// Returns whether a point is inside.
     pub fn holds(&self, point: Vector) -> bool {
         (0..3).all(|axis| (self.low[axis]..=self.high[axis]).contains(&point[axis]))
@@ -221,7 +235,7 @@ impl Solid {
 }
 
 /// Height of a surface of triangles above a place in the plane `z = 0`, and the
-/// cosine of its slope there; `None` beside it.
+/// cosine of its slope there, negative where it looks down; `None` beside it.
 pub fn height(surface: &[[Vector; 3]], [x, y, _]: Vector) -> Option<(f64, f64)> {
     const SLACK: f64 = 1e-12;
     let at = |[a, b, c]: &[Vector; 3]| {
@@ -232,7 +246,7 @@ pub fn height(surface: &[[Vector; 3]], [x, y, _]: Vector) -> Option<(f64, f64)> 
         let (v, w) = (cross_2(ap, ac) / whole, cross_2(ab, ap) / whole);
         let inside = v >= -SLACK && w >= -SLACK && v + w <= 1.0 + SLACK;
         let normal = cross(minus(*b, *a), minus(*c, *a));
-        let cosine = normal[2].abs() / length(normal);
+        let cosine = normal[2] / length(normal);
         inside.then(|| (a[2] + v * (b[2] - a[2]) + w * (c[2] - a[2]), cosine))
     };
     surface.iter().find_map(at)

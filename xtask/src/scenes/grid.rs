@@ -3,7 +3,7 @@
 //! A map takes the unit cube to the body. Sides are named after the axes of the cube:
 //! `xmin` to `zmax`. The first axis may close to a ring, which has no `xmin` and `xmax`.
 
-use super::vector::{Vector, cross, dot, length, minus};
+use super::vector::{Vector, cross, dot, length, mean, minus};
 
 /// A mesh with its sets of nodes; facets with all corners in a set are a set of its name.
 #[derive(Clone, Debug)]
@@ -108,6 +108,59 @@ impl Grid {
             sides,
             nodes: Vec::new(),
         }
+    }
+}
+
+impl Grid {
+    /// The mesh without the elements whose middles are where `removed` says, and without nodes
+    /// that then belong to none.
+    pub fn without(mut self, removed: impl Fn(Vector) -> bool) -> Self {
+        let positions = &self.positions;
+        self.cells.retain(|cell| {
+            let corners: Vec<Vector> = cell.iter().map(|&node| positions[node]).collect();
+            !removed(mean(&corners))
+        });
+        let mut number = vec![usize::MAX; self.positions.len()];
+        self.cells
+            .iter()
+            .flatten()
+            .for_each(|&node| number[node] = 0);
+        let mut kept = Vec::new();
+        for (node, number) in number.iter_mut().enumerate().filter(|(_, n)| **n == 0) {
+            *number = kept.len();
+            kept.push(self.positions[node]);
+        }
+        self.positions = kept;
+        for nodes in self.cells.iter_mut() {
+            nodes.iter_mut().for_each(|node| *node = number[*node]);
+        }
+        for (_, nodes) in self.sides.iter_mut().chain(&mut self.nodes) {
+            nodes.retain(|&node| number[node] != usize::MAX);
+            nodes.iter_mut().for_each(|node| *node = number[*node]);
+        }
+        self.sides.retain(|side| !side.1.is_empty());
+        self
+    }
+
+    /// The mesh moved by a map of its nodes, for which its edge and volume are measured again.
+    pub fn moved(mut self, map: impl Fn(Vector) -> Vector) -> Self {
+        self.positions.iter_mut().for_each(|x| *x = map(*x));
+        let positions = &self.positions;
+        let corners = |cell: &Vec<usize>| {
+            let corners = <[usize; 8]>::try_from(&cell[..]).expect("elements are hexahedra");
+            corners.map(|node| positions[node])
+        };
+        let all: Vec<[Vector; 8]> = self.cells.iter().map(corners).collect();
+        self.edge = all.iter().map(shortest).fold(f64::INFINITY, f64::min);
+        self.volume = all.iter().map(volume).sum();
+        self
+    }
+
+    /// The mesh with a further set of nodes, by their places.
+    pub fn with_nodes(mut self, name: &'static str, wanted: impl Fn(Vector) -> bool) -> Self {
+        let nodes = (0..self.positions.len()).filter(|&node| wanted(self.positions[node]));
+        self.nodes.push((name, nodes.collect()));
+        self
     }
 }
 

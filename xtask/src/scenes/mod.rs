@@ -3,19 +3,21 @@
 //!
 //! ```text
 //! cargo xtask scenes [--seeds A..B] [--kind K,...] [--jobs N] [--keep FOLDER] [--binary PATH]
-//!                    [--enforcement weighted|collocated]
+//!                    [--enforcement weighted|collocated] [--general]
 //! ```
 //!
 //! A seed gives a [`scene`] by its [`kinds`], this a [`deck`]; the program [`run`]s it
 //! as a child process, and [`checks`] looks at the output with means of its own: no
 //! crate of striae is used here, so what is wrong there cannot hide here. Decks that
 //! fail are kept with their logs, in a folder each: `FOLDER/SEED-KIND`, beside the tables
-//! of all in `FOLDER/report.md`. Runs that stop are counted; decks that are refused, crashes
+//! of all in `FOLDER/report.md`. With `--general` scenes are posed again without pairs, see
+//! [`general`]. Runs that stop are counted; decks that are refused, crashes
 //! and output that is silent or wrong make the task fail.
 
 mod checks;
 mod claim;
 mod deck;
+mod general;
 mod geometry;
 mod grid;
 mod kinds;
@@ -44,7 +46,7 @@ use std::{
 
 use crate::{cargo, fault::Fault};
 use kinds::{Choice, Dialect};
-use options::Options;
+use options::{Options, Posing};
 use output::{History, Summary};
 use run::Run;
 use scene::Scene;
@@ -79,8 +81,8 @@ pub fn scenes(arguments: &[String]) -> Result<(), Fault> {
         options.kinds.is_empty() || options.kinds.iter().any(|wanted| wanted == kind)
     };
     let seeds: Vec<u64> = options.seeds.clone().filter(wanted).collect();
-    let judged = all(&options, &binary, &seeds, dialect)?;
-    let report = summary::report(&judged);
+    let (judged, unposed) = all(&options, &binary, &seeds, dialect)?;
+    let report = summary::report(&judged) + &summary::unposed(&unposed);
     println!("\n{report}");
     let path = options.keep.join("report.md");
     fs::write(&path, &report).map_err(|cause| Fault::Unreadable { path, cause })?;
@@ -94,23 +96,42 @@ pub fn scenes(arguments: &[String]) -> Result<(), Fault> {
     }
 }
 
+/// A kind of scenes, and why it was not posed as asked for.
+type Unposed = (&'static str, &'static str);
+
 /// Runs all seeds, several at a time.
 fn all(
     options: &Options,
     binary: &Path,
     seeds: &[u64],
     dialect: Dialect,
-) -> Result<Vec<Judged>, Fault> {
+) -> Result<(Vec<Judged>, Vec<Unposed>), Fault> {
     let next = AtomicUsize::new(0);
     let done: Mutex<Vec<Result<Judged, Fault>>> = Mutex::new(Vec::new());
+    let unposed: Mutex<Vec<Unposed>> = Mutex::new(Vec::new());
     thread::scope(|scope| {
         for _ in 0..options.jobs {
             scope.spawn(|| {
                 while let Some(&seed) = seeds.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    let judged = one(&options.keep, binary, seed, dialect);
-                    done.lock()
-                        .expect("no thread fails while it holds the list")
-                        .push(judged);
+                    let scene = kinds::scene(seed, dialect);
+                    let posed = match options.posing {
+                        Posing::Own => Ok((scene, None)),
+                        Posing::General => general::posed(&scene)
+                            .map(|[general, named]| (general, Some(named)))
+                            .map_err(|reason| (scene.kind, reason)),
+                    };
+                    match posed {
+                        Ok((scene, named)) => {
+                            let judged = one(&options.keep, binary, scene, named.as_ref());
+                            done.lock()
+                                .expect("no thread fails while it holds the list")
+                                .push(judged);
+                        }
+                        Err(reason) => unposed
+                            .lock()
+                            .expect("no thread fails while it holds the list")
+                            .push(reason),
+                    }
                 }
             });
         }
@@ -118,15 +139,17 @@ fn all(
     let done = done
         .into_inner()
         .expect("no thread fails while it holds the list");
+    let unposed = unposed
+        .into_inner()
+        .expect("no thread fails while it holds the list");
     let mut judged = done.into_iter().collect::<Result<Vec<_>, _>>()?;
     judged.sort_by_key(|judged| judged.scene.seed);
-    Ok(judged)
+    Ok((judged, unposed))
 }
 
-/// Runs and judges one seed.
-fn one(keep: &Path, binary: &Path, seed: u64, dialect: Dialect) -> Result<Judged, Fault> {
-    let scene = kinds::scene(seed, dialect);
-    let folder = keep.join(format!("{seed:05}-{}", scene.kind));
+/// Runs and judges a scene, beside the same one with pairs if there is one.
+fn one(keep: &Path, binary: &Path, scene: Scene, named: Option<&Scene>) -> Result<Judged, Fault> {
+    let folder = keep.join(format!("{:05}-{}", scene.seed, scene.kind));
     let failed = |path: &Path| {
         let path: PathBuf = path.to_owned();
         move |cause| Fault::Unreadable { path, cause }
@@ -138,16 +161,36 @@ fn one(keep: &Path, binary: &Path, seed: u64, dialect: Dialect) -> Result<Judged
     let run = started(binary, &folder, &scene)?;
     let out = folder.join("out");
     let summary = Summary::read(&out.join("summary.json"));
-    let reference = match (&scene.reference, &summary) {
-        (Some(reference), Ok(summary)) if summary.is_completed() => {
-            let folder = folder.join("reference");
-            fs::create_dir_all(&folder).map_err(failed(&folder))?;
-            started(binary, &folder, reference)?;
-            Some(History::read(&folder.join("out/history.csv")))
-        }
+    let beside = |name: &str, scene: &Scene| -> Result<(PathBuf, Result<History, String>), Fault> {
+        let folder = folder.join(name);
+        fs::create_dir_all(&folder).map_err(failed(&folder))?;
+        started(binary, &folder, scene)?;
+        let out = folder.join("out");
+        let history = History::read(&out.join("history.csv"));
+        Ok((out, history))
+    };
+    let completed = summary.as_ref().is_ok_and(Summary::is_completed);
+    let reference = match &scene.reference {
+        Some(reference) if completed => Some(beside("reference", reference)?.1),
         _ => None,
     };
-    let findings = checks::check(&out, &scene, reference);
+    let history = History::read(&out.join("history.csv"));
+    let scene = match &history {
+        Ok(history) => general::with_found(scene, history),
+        Err(_) => scene,
+    };
+    let mut findings = checks::check(&out, &scene, reference);
+    if let (Some(named), Ok(history), Ok(findings)) = (named, &history, &mut findings)
+        && let (folder, Ok(other)) = beside("named", named)?
+    {
+        let runs = [(&scene, &out, history), (named, &folder, &other)];
+        let [general, named] = runs.map(|(scene, folder, history)| general::Run {
+            scene,
+            folder,
+            history,
+        });
+        general::compare(findings, &general, &named);
+    }
     let verdict = verdict::judge(&scene, &run, summary, findings);
     told(&scene, &verdict);
     match verdict.class {

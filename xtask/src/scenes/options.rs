@@ -21,6 +21,17 @@ pub struct Options {
     pub binary: Option<PathBuf>,
     /// Method of contact; the program's default if absent.
     pub enforcement: Option<&'static str>,
+    /// How scenes say what may touch.
+    pub posing: Posing,
+}
+
+/// How scenes say what may touch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Posing {
+    /// As they are.
+    Own,
+    /// Without pairs, beside a run with pairs.
+    General,
 }
 
 /// Methods of contact.
@@ -39,9 +50,14 @@ impl Options {
             keep: PathBuf::from("target/scenes"),
             binary: None,
             enforcement: None,
+            posing: Posing::Own,
         };
         let mut rest = arguments.iter();
         while let Some(name) = rest.next() {
+            if name == "--general" {
+                options.posing = Posing::General;
+                continue;
+            }
             let wrong = || Fault::Option(format!("`{name}` needs another value"));
             let value = rest.next().ok_or_else(wrong)?;
             match name.as_str() {
@@ -70,11 +86,19 @@ impl Options {
                 _ => return Err(Fault::Option(format!("there is no option `{name}`"))),
             }
         }
-        let new = options.kinds.iter().find(|kind| kinds::is_new(kind));
-        if let Some(kind) = new.filter(|_| options.seeds.end <= kinds::FIRST_OF_ALL) {
-            let first = kinds::FIRST_OF_ALL;
+        let never = options.kinds.iter().find(|kind| {
+            let of = kinds::seeds_of(kind);
+            options.seeds.start >= of.end || options.seeds.end <= of.start
+        });
+        if let Some(kind) = never {
+            let Range { start, end } = kinds::seeds_of(kind);
+            let until = if end == u64::MAX {
+                "on".into()
+            } else {
+                format!("to {}", end - 1)
+            };
             return Err(Fault::Option(format!(
-                "scenes of the kind `{kind}` have seeds from {first} on"
+                "scenes of the kind `{kind}` have seeds from {start} {until}"
             )));
         }
         Ok(options)
@@ -99,7 +123,9 @@ mod tests {
             let arguments: Vec<String> = text.split_whitespace().map(str::to_owned).collect();
             Options::read(&arguments)
         };
-        let options = read("--seeds 3..9 --kind press --jobs 1").unwrap();
+        assert_eq!(read("").unwrap().posing, Posing::Own);
+        assert_eq!(read("--general").unwrap().posing, Posing::General);
+        let options = read("--general --seeds 3..9 --kind press --jobs 1").unwrap();
         assert_eq!((options.seeds, options.jobs), (3..9, 1));
         assert_eq!(options.kinds, ["press"]);
         assert_eq!(read("--seeds 7").unwrap().seeds, 7..8);
@@ -109,6 +135,8 @@ mod tests {
             "--jobs 0",
             "--kind none",
             "--seeds 0..90 --kind pile",
+            "--seeds 100000..100100 --kind bag",
+            "--seeds 200000..200100 --kind pile",
             "--fast 1",
         ] {
             assert!(read(wrong).is_err(), "{wrong}");

@@ -30,6 +30,8 @@ pub struct Scene {
     pub steps: Vec<Step>,
     /// Start of the bodies: apart, or overlapping.
     pub start: Start,
+    /// How the deck says what may touch.
+    pub statement: Statement,
     /// Method of contact to ask for.
     pub enforcement: Option<&'static str>,
     /// Ties.
@@ -42,6 +44,17 @@ pub struct Scene {
     pub reference: Option<Box<Scene>>,
 }
 
+/// How the deck says what may touch.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Statement {
+    /// By its pairs.
+    Pairs,
+    /// By its pairs, with a normal for each face at an edge, as where all touches all.
+    PairsOfFaces,
+    /// All touches all, with this law where nothing narrower is said. The pairs of the scene are
+    /// those that it comes down to, under their names.
+    All(Law),
+}
 /// Endings that a scene may have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ending {
@@ -206,7 +219,7 @@ pub struct Tie {
 #[derive(Clone, Debug)]
 pub struct Pair {
     /// Name.
-    pub name: &'static str,
+    pub name: String,
     /// Sides.
     pub sides: [Side; 2],
     /// Friction.
@@ -215,6 +228,28 @@ pub struct Pair {
     pub cap: Option<f64>,
     /// Ratio of kinetic to static friction, and the rate of the decay.
     pub decay: Option<(f64, f64)>,
+    /// Where it comes from.
+    pub origin: Origin,
+}
+
+/// Where a pair comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// The scene is about it.
+    Scene,
+    /// All touches all, and so do these.
+    Found,
+}
+
+/// Facets of a side that is all the skin of its body.
+pub const SKIN: &str = "skin";
+
+impl Pair {
+    /// Returns true for a body that touches itself.
+    pub fn is_itself(&self) -> bool {
+        let [a, b] = &self.sides;
+        a.owner == b.owner && b.facets.is_none()
+    }
 }
 
 /// A side of a pair.
@@ -222,7 +257,7 @@ pub struct Pair {
 pub struct Side {
     /// Name of the body or rigid surface.
     pub owner: &'static str,
-    /// Facets of the body; `None` of a rigid surface.
+    /// Facets of the body; `None` of a rigid surface, and of a body that is the other side, too.
     pub facets: Option<&'static str>,
     /// Texture.
     pub texture: Option<Texture>,
@@ -235,6 +270,16 @@ pub enum Texture {
     Uniform(Vector, f64),
     /// Circles or rays (by the key in the deck) about the vertical axis through a point.
     About(&'static str, Vector, f64),
+}
+
+impl Side {
+    /// The label of its surface.
+    pub fn label(&self) -> String {
+        match self.facets {
+            Some(facets) if facets != SKIN => format!("{}.{facets}", self.owner),
+            _ => self.owner.to_owned(),
+        }
+    }
 }
 
 impl Scene {

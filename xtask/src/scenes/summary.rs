@@ -35,6 +35,18 @@ pub fn report(all: &[Judged]) -> String {
     text + &causes(all) + &measures(all) + &iterations(all) + &reasons(all)
 }
 
+/// Kinds that were not posed as asked for, with the reason; nothing without any.
+pub fn unposed(all: &[(&str, &str)]) -> String {
+    let mut counts: BTreeMap<&(&str, &str), usize> = BTreeMap::new();
+    for one in all {
+        *counts.entry(one).or_default() += 1;
+    }
+    let rows = counts.iter().map(|((kind, reason), count)| {
+        format!("not posed without pairs: {count} of kind {kind}, which {reason}\n")
+    });
+    rows.collect()
+}
+
 /// Place and name of a row.
 type Key = (i32, String);
 
@@ -192,13 +204,20 @@ fn measures(all: &[Judged]) -> String {
         "contact energy",
         "depth over own facets",
         "depth through other faces",
+        "beside pairs, same facets",
+        "beside pairs, other facets",
     ] {
         let values = ended.iter().filter_map(|judged| {
             let value = judged.verdict.findings.told.get(name)?;
             Some((*value, judged.scene.seed))
         });
+        let count = values.clone().count();
         if let Some((value, seed)) = values.max_by(|a, b| a.0.total_cmp(&b.0)) {
-            writeln!(text, "| {name} (told) | | | {value:.1e} | {seed} |").expect("text grows");
+            writeln!(
+                text,
+                "| {name} (told, {count}) | | | {value:.1e} | {seed} |"
+            )
+            .expect("text grows");
         }
     }
     text + "\n"
@@ -230,9 +249,10 @@ fn iterations(all: &[Judged]) -> String {
         .iter()
         .map(|judged| judged.verdict.seconds)
         .fold(0.0, f64::max);
+    let touched = ended.iter().filter(|j| j.verdict.findings.touched).count();
     let share = 100.0 * cut as f64 / ended.len().max(1) as f64;
     format!(
-        "complete: {} of {}; iterations an increment: median {} (target 4), 99 % {} (target 12), \
+        "complete: {} of {}, with deformable surfaces that touched: {touched}; iterations an increment: median {} (target 4), 99 % {} (target 12), \
          largest {}; scenes with increments cut: {cut}, {share:.1} % (target 3 %); \
          slowest run {slowest:.0} s\n\n",
         ended.len(),

@@ -114,7 +114,7 @@ impl Output<'_> {
                 along(now(pair, owner)?, direction) / along(other, direction)
             }
             Quantity::Friction(pair) => {
-                let name = self.scene.pairs[*pair].name;
+                let name = &self.scene.pairs[*pair].name;
                 let of = |what: &str| {
                     self.history
                         .number(row, &format!("pair.{name}.{what}_integral_a"))
@@ -186,7 +186,7 @@ impl Output<'_> {
         for &pair in pairs {
             let force = on_body(self.scene, self.history, row, pair, owner)?;
             let force = dot(force, place.direction([0.0, 0.0, 1.0]));
-            let name = self.scene.pairs[pair].name;
+            let name = &self.scene.pairs[pair].name;
             let centre = self.history.vector(row, &format!("pair.{name}.centre"))?;
             let centre = applied(&transposed(&place.matrix()), minus(centre, place.shift));
             sum += force;

@@ -11,6 +11,7 @@
 //! | `dissipation` | never falls, to 1e-9 of the largest energy |
 //! | `energy` | the balance of energies closes to 1e-6 of the largest |
 //! | `depth` | no node, and no corner of a rigid facet, deeper inside than a tenth of a facet |
+//! | `crossing` | where all touches all, no facets cross deeper than 0.3 of their size, see [`crossing`] |
 //! | `ending` | a completed run reached the end of all steps |
 //! | `contact` | pairs carry force at the end of steps that press, none where they are apart |
 //! | `work` | friction gives no node with an own row work: `tau . du <= 1e-4 p h`, see [`work`] |
@@ -18,6 +19,7 @@
 //! | `sliding` | friction over pressure where all slides is that of the law to 1 % |
 //! | `refined` | forces are those of a finer mesh, of what the scene is a half of, or of other cells |
 //! | `stands` | what has to stay where it is stays, and what is pushed gets there |
+//! | `pairs` | without pairs forces are those with pairs to 1e-8, where the same facets meet |
 //!
 //! Forces and energies below [`round_off`] count as zero: if nothing is pressed, round-off would be
 //! compared with round-off.
@@ -26,10 +28,11 @@
 
 mod balance;
 mod claims;
+mod crossing;
 pub mod depth;
 mod fields;
 mod round_off;
-mod sizes;
+pub mod sizes;
 mod table;
 mod work;
 
@@ -37,11 +40,11 @@ use std::{collections::BTreeMap, path::Path};
 
 use super::{
     output::{Fields, History},
-    scene::{Scene, Start},
+    scene::{Scene, Start, Statement},
 };
 
 /// Names of the checks, in the order of the table.
-pub const NAMES: [&str; 16] = [
+pub const NAMES: [&str; 18] = [
     "ending",
     "contact",
     "resultants",
@@ -53,11 +56,13 @@ pub const NAMES: [&str; 16] = [
     "dissipation",
     "energy",
     "depth",
+    "crossing",
     "work",
     "closed form",
     "sliding",
     "refined",
     "stands",
+    "pairs",
 ];
 
 /// Worst finding of a check.
@@ -78,6 +83,8 @@ pub struct Findings {
     pub told: BTreeMap<&'static str, f64>,
     /// Iterations of the increments.
     pub iterations: Vec<usize>,
+    /// Set where deformable surfaces pressed on each other at some time.
+    pub touched: bool,
 }
 
 impl Findings {
@@ -113,6 +120,13 @@ impl Findings {
     }
 }
 
+/// Facets that cross in the fields.
+#[cfg(test)]
+pub fn crossings(fields: &Fields) -> Findings {
+    let mut findings = Findings::default();
+    crossing::check(&mut findings, fields, 0);
+    findings
+}
 /// Checks the output of a run; if it stopped, the output written until then.
 ///
 /// # Errors
@@ -138,6 +152,9 @@ pub fn check(
             && history.number(increment, "step") == Some(1.0);
         if !fading {
             depth::check(&mut findings, scene, &history, &fields, increment);
+            if matches!(scene.statement, Statement::All(_)) {
+                crossing::check(&mut findings, &fields, increment);
+            }
         }
     }
     let reference = reference.transpose();

@@ -2,7 +2,7 @@
 
 use crate::scenes::{
     output::History,
-    scene::{End, Scene},
+    scene::{End, Origin, Pair, Scene},
     vector::{Vector, length, plus},
 };
 
@@ -30,8 +30,12 @@ pub fn check(findings: &mut Findings, scene: &Scene, history: &History) {
         return;
     }
     ending(findings, scene, history);
+    findings.touched = scene.pairs.iter().any(|pair| {
+        let soft = pair.is_itself() || pair.sides.iter().all(|side| side.facets.is_some());
+        soft && largest(pair, &sides(history, &pair.name)) > 0.0
+    });
     for pair in &scene.pairs {
-        resultants(findings, pair.name, history);
+        resultants(findings, pair, history);
         let column = format!("pair.{}.dissipated", pair.name);
         dissipation(findings, scene, &column, history);
     }
@@ -58,36 +62,61 @@ fn ending(findings: &mut Findings, scene: &Scene, history: &History) {
     }
 }
 
-/// Resultants of both sides of a pair in all rows.
-fn sides(history: &History, pair: &str) -> Vec<[Vector; 2]> {
+/// Forces of a pair after an increment.
+struct Forces {
+    /// Resultants on both sides.
+    resultants: [Vector; 2],
+    /// Integral of pressure.
+    pressed: f64,
+}
+
+impl Forces {
+    /// Size of what the pair does: of a body and itself nothing is left of the resultants.
+    fn size(&self, pair: &Pair) -> f64 {
+        if pair.is_itself() {
+            return self.pressed;
+        }
+        let [a, b] = self.resultants.map(length);
+        a.max(b)
+    }
+}
+
+/// Forces of a pair in all rows.
+fn sides(history: &History, pair: &str) -> Vec<Forces> {
     let row = |row: usize| {
         let side = |letter| history.vector(row, &format!("pair.{pair}.resultant_{letter}"));
-        Some([side("a")?, side("b")?])
+        let pressed = history.number(row, &format!("pair.{pair}.pressure_integral_a"));
+        Some(Forces {
+            resultants: [side("a")?, side("b")?],
+            pressed: pressed.unwrap_or(f64::NAN),
+        })
     };
     (0..history.len()).filter_map(row).collect()
 }
 
-fn largest(forces: &[[Vector; 2]]) -> f64 {
-    let all = forces.iter().flatten();
-    all.map(|&force| length(force)).fold(0.0, f64::max)
+fn largest(pair: &Pair, forces: &[Forces]) -> f64 {
+    let all = forces.iter().map(|forces| forces.size(pair));
+    all.fold(0.0, f64::max)
 }
 
-fn resultants(findings: &mut Findings, pair: &str, history: &History) {
-    let forces = sides(history, pair);
+fn resultants(findings: &mut Findings, pair: &Pair, history: &History) {
+    let name = &pair.name;
+    let forces = sides(history, name);
     if forces.is_empty() {
-        let place = || format!("pair {pair} has no resultants");
+        let place = || format!("pair {name} has no resultants");
         findings.note("resultants", f64::INFINITY, place);
         return;
     }
-    let of_run = largest(&forces);
-    for (row, [a, b]) in forces.iter().enumerate() {
-        let larger = length(*a).max(length(*b));
+    let of_run = largest(pair, &forces);
+    for (row, of_row) in forces.iter().enumerate() {
+        let [a, b] = of_row.resultants;
+        let larger = of_row.size(pair);
         let bound = RESULTANTS * larger + NOTHING * of_run;
-        let off = length(plus(*a, *b));
+        let off = length(plus(a, b));
         if bound > 0.0 {
             findings.note("resultants", off / bound, || {
                 format!(
-                    "pair {pair}, increment {}: {off:.2e} of {larger:.2e}",
+                    "pair {name}, increment {}: {off:.2e} of {larger:.2e}",
                     row + 1
                 )
             });
@@ -107,9 +136,13 @@ fn contact(findings: &mut Findings, scene: &Scene, history: &History) {
         let Some(row) = (0..history.len()).find(at_end) else {
             continue;
         };
-        for pair in &scene.pairs {
-            let forces = sides(history, pair.name);
-            let (of_run, now) = (largest(&forces), largest(&forces[row..=row]));
+        for pair in scene
+            .pairs
+            .iter()
+            .filter(|pair| pair.origin == Origin::Scene)
+        {
+            let forces = sides(history, &pair.name);
+            let (of_run, now) = (largest(pair, &forces), largest(pair, &forces[row..=row]));
             let place = |what: &str| {
                 format!(
                     "pair {}, end of step {}: {what}, force {now:.2e}",

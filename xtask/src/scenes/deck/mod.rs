@@ -6,11 +6,12 @@
 //! `o - p + T^T (p + R^T t)`.
 
 mod bodies;
+mod everything;
 mod pairs;
 mod steps;
 
 use super::{
-    scene::{Placement, Scene},
+    scene::{Placement, Scene, Statement},
     vector::{Matrix, Vector, applied, plus, rotation},
 };
 
@@ -52,8 +53,13 @@ pub fn text(scene: &Scene) -> String {
     for surface in &scene.rigid {
         bodies::rigid(&mut lines, &scene.placement, surface);
     }
-    for of_pair in &scene.pairs {
-        pairs::pair(&mut lines, scene, of_pair);
+    match &scene.statement {
+        Statement::Pairs | Statement::PairsOfFaces => {
+            for of_pair in &scene.pairs {
+                pairs::pair(&mut lines, scene, of_pair);
+            }
+        }
+        Statement::All(law) => everything::contact(&mut lines, scene, law),
     }
     for tie in &scene.ties {
         pairs::tie(&mut lines, tie);

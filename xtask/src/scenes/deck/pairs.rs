@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use crate::scenes::{
     law::Law,
-    scene::{Pair, Placement, Scene, Side, Start, Texture, Tie},
+    scene::{Pair, Placement, Scene, Side, Start, Statement, Texture, Tie},
 };
 
 /// A pair.
@@ -16,8 +16,18 @@ pub fn pair(lines: &mut Vec<String>, scene: &Scene, pair: &Pair) {
     if let Start::Overlapping(Some(initial)) = scene.start {
         lines.push(format!("initial = \"{initial}\""));
     }
+    if scene.statement == Statement::PairsOfFaces {
+        lines.push("feature_angle = 45".into());
+    }
     let enforcement = scene.enforcement;
     lines.extend(enforcement.map(|method| format!("enforcement = \"{method}\"")));
+    let friction = friction(pair);
+    lines.extend(friction.map(|text| format!("friction = {{ {text} }}")));
+    lines.push(String::new());
+}
+
+/// The table of the friction of a pair; `None` without.
+pub fn friction(pair: &Pair) -> Option<String> {
     let mut friction = match &pair.law {
         Law::Frictionless => None,
         Law::Coulomb(mu) => Some(format!("law = \"coulomb\", mu = {mu:?}")),
@@ -46,8 +56,7 @@ pub fn pair(lines: &mut Vec<String>, scene: &Scene, pair: &Pair) {
             write!(text, ", decay = {{ {decay} }}").expect("text grows");
         }
     }
-    lines.extend(friction.map(|text| format!("friction = {{ {text} }}")));
-    lines.push(String::new());
+    friction
 }
 
 fn side(placement: &Placement, side: &Side) -> String {
@@ -55,22 +64,26 @@ fn side(placement: &Placement, side: &Side) -> String {
         Some(facets) => format!("body = \"{}\", facets = \"{facets}\"", side.owner),
         None => format!("rigid = \"{}\"", side.owner),
     };
-    let painted = match side.texture {
-        None => return text,
-        Some(Texture::Uniform(direction, turn)) => {
-            format!(
-                "uniform = {:?}, turn = {turn:?}",
-                placement.direction(direction)
-            )
+    if let Some(of) = &side.texture {
+        let painted = texture(placement, of);
+        write!(text, ", texture = {painted}").expect("text grows");
+    }
+    text
+}
+
+/// The table of a texture.
+pub fn texture(placement: &Placement, texture: &Texture) -> String {
+    match *texture {
+        Texture::Uniform(direction, turn) => {
+            let direction = placement.direction(direction);
+            format!("{{ uniform = {direction:?}, turn = {turn:?} }}")
         }
-        Some(Texture::About(key, point, turn)) => format!(
-            "{key} = {{ point = {:?}, direction = {:?} }}, turn = {turn:?}",
+        Texture::About(key, point, turn) => format!(
+            "{{ {key} = {{ point = {:?}, direction = {:?} }}, turn = {turn:?} }}",
             placement.point(point),
             placement.direction([0.0, 0.0, 1.0]),
         ),
-    };
-    write!(text, ", texture = {{ {painted} }}").expect("text grows");
-    text
+    }
 }
 
 /// A tie.

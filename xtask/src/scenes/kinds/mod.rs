@@ -2,7 +2,8 @@
 //!
 //! The seed modulo the number of kinds picks the kind, the sequence of the seed all
 //! else. Seeds below [`FIRST_OF_ALL`] are of the first [`OLDEST`] kinds, so that seeds which
-//! notes and other tasks name stay what they were. Lengths are in a random unit, about the width of the larger body; moduli too.
+//! notes and other tasks name stay what they were; those from [`FIRST_OF_ITSELF`] on are of bodies
+//! that touch themselves. Lengths are in a random unit, about the width of the larger body; moduli too.
 
 mod blade;
 mod columns;
@@ -13,6 +14,7 @@ mod dynamic;
 mod edges;
 mod elements;
 mod free;
+mod itself;
 mod loads;
 mod matter;
 mod parts;
@@ -28,6 +30,8 @@ mod speck;
 mod symmetry;
 mod thin;
 mod trilith;
+
+use std::ops::Range;
 
 use super::{random::Random, scene::Scene};
 
@@ -53,8 +57,11 @@ pub enum Choice {
 /// Makes a scene of one kind.
 type Make = fn(&mut Random, Dialect) -> Scene;
 
-/// Names of the kinds and what makes them.
-pub const KINDS: [(&str, Make); 43] = [
+/// Name of a kind, and what makes its scenes.
+type Kind = (&'static str, Make);
+
+/// Kinds whose pairs have names.
+pub const KINDS: [Kind; 43] = [
     ("press", plain::press),
     ("slide", plain::slide),
     ("turn", plain::turn),
@@ -102,26 +109,36 @@ pub const KINDS: [(&str, Make); 43] = [
 
 /// Names of the kinds, in their order.
 pub fn names() -> impl Iterator<Item = &'static str> {
-    KINDS.iter().map(|kind| kind.0)
+    KINDS.iter().chain(&itself::ITSELF).map(|kind| kind.0)
 }
 
-/// The seed from which on all kinds take turns.
+/// The seed from which on all kinds with names for what touches take turns.
 pub const FIRST_OF_ALL: u64 = 100_000;
+/// The seed from which on bodies that touch themselves, and nets of bodies, take turns.
+pub const FIRST_OF_ITSELF: u64 = 200_000;
 /// Number of kinds that take turns below.
-const OLDEST: u64 = 19;
+const OLDEST: usize = 19;
 
-fn entry(seed: u64) -> (&'static str, Make) {
-    let count = if seed < FIRST_OF_ALL {
-        OLDEST
-    } else {
-        KINDS.len() as u64
-    };
-    KINDS[(seed % count) as usize]
+/// Seeds and the kinds that take turns in them.
+const TURNS: [(Range<u64>, &[Kind]); 3] = [
+    (0..FIRST_OF_ALL, KINDS.split_at(OLDEST).0),
+    (FIRST_OF_ALL..FIRST_OF_ITSELF, &KINDS),
+    (FIRST_OF_ITSELF..u64::MAX, &itself::ITSELF),
+];
+
+fn entry(seed: u64) -> Kind {
+    let turns = TURNS.iter().find(|(seeds, _)| seeds.contains(&seed));
+    let (_, kinds) = turns.unwrap_or(&TURNS[2]);
+    kinds[(seed % kinds.len() as u64) as usize]
 }
 
-/// True if a kind takes turns from [`FIRST_OF_ALL`] on only.
-pub fn is_new(name: &str) -> bool {
-    names().skip(OLDEST as usize).any(|kind| kind == name)
+/// Seeds that a kind takes turns in.
+pub fn seeds_of(name: &str) -> Range<u64> {
+    let has = |kinds: &[Kind]| kinds.iter().any(|kind| kind.0 == name);
+    let mut turns = TURNS.iter().filter(|(_, kinds)| has(kinds));
+    let from = turns.next().map_or(0, |(seeds, _)| seeds.start);
+    let to = TURNS.iter().rev().find(|(_, kinds)| has(kinds));
+    from..to.map_or(0, |(seeds, _)| seeds.end)
 }
 
 /// Name of the kind of a seed.
@@ -144,11 +161,12 @@ pub fn scene(seed: u64, dialect: Dialect) -> Scene {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scenes::{claim::Quantity, deck, scene::Shape};
+    use crate::scenes::{checks, claim::Quantity, deck, grid, output::Fields, scene::Shape, vtu};
 
     #[test]
     fn the_same_seed_gives_the_same_deck() {
-        for seed in (0..90).chain(FIRST_OF_ALL..FIRST_OF_ALL + 90) {
+        let new = FIRST_OF_ITSELF..FIRST_OF_ITSELF + 33;
+        for seed in (0..90).chain(FIRST_OF_ALL..FIRST_OF_ALL + 90).chain(new) {
             let [one, two] = [0, 1].map(|_| deck::text(&scene(seed, Dialect::default())));
             assert_eq!(one, two);
         }
@@ -158,7 +176,8 @@ mod tests {
 
     #[test]
     fn decks_are_toml_and_meshes_small() {
-        for seed in (0..380).chain(FIRST_OF_ALL..FIRST_OF_ALL + 430) {
+        let new = FIRST_OF_ITSELF..FIRST_OF_ITSELF + 110;
+        for seed in (0..380).chain(FIRST_OF_ALL..FIRST_OF_ALL + 430).chain(new) {
             let scene = scene(seed, Dialect::default());
             let text = deck::text(&scene);
             let parsed: Result<toml::Table, _> = text.parse();
@@ -204,11 +223,47 @@ mod tests {
     #[test]
     fn seeds_of_the_oldest_kinds_stay_what_they_were() {
         assert_eq!([17, 18, 19].map(kind_of), ["launch", "load", "press"]);
-        assert!(is_new("pile") && !is_new("load"));
+        assert_eq!(seeds_of("load"), 0..FIRST_OF_ITSELF);
+        assert_eq!(seeds_of("pile"), FIRST_OF_ALL..FIRST_OF_ITSELF);
+        assert_eq!(seeds_of("bag").start, FIRST_OF_ITSELF);
         let all: std::collections::BTreeSet<&str> = (FIRST_OF_ALL
             ..FIRST_OF_ALL + KINDS.len() as u64)
             .map(kind_of)
             .collect();
         assert_eq!(all.len(), KINDS.len());
+    }
+
+    #[test]
+    fn bodies_that_touch_themselves_do_not_cross_at_rest() {
+        for seed in FIRST_OF_ITSELF..FIRST_OF_ITSELF + 220 {
+            let scene = scene(seed, Dialect::default());
+            let bodies = scene.bodies.iter().map(|body| {
+                let Shape::Grid(grid) = &body.shape else {
+                    panic!("{seed}: {} is no grid", body.name);
+                };
+                let corners = |cell: &Vec<usize>| {
+                    let corners = <[usize; 8]>::try_from(&cell[..]).unwrap();
+                    grid::volume(&corners.map(|node| grid.positions[node]))
+                };
+                assert!(grid.cells.iter().all(|cell| corners(cell) > 0.0), "{seed}");
+                let grid = vtu::Grid::plain(grid.positions.clone(), grid.cells.clone());
+                (body.name, grid)
+            });
+            let fields = Fields {
+                bodies: bodies.collect(),
+                pairs: Vec::new(),
+            };
+            let found = checks::crossings(&fields);
+            assert!(
+                found.failed().next().is_none(),
+                "{seed} {}: {found:?}",
+                scene.kind
+            );
+            assert_eq!(
+                found.worst["crossing"].measure, 0.0,
+                "{seed} {}: {found:?}",
+                scene.kind
+            );
+        }
     }
 }

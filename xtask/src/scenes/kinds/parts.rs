@@ -4,7 +4,8 @@ use crate::scenes::{
     law::Law,
     random::Random,
     scene::{
-        Beside, Block, Body, Ending, Material, Pair, Placement, Scene, Shape, Side, Start, Texture,
+        Beside, Block, Body, Ending, Material, Origin, Pair, Placement, Scene, Shape, Side, Start,
+        Statement, Texture,
     },
     vector::Vector,
 };
@@ -218,13 +219,14 @@ pub fn pair_with(
     let sides = order.map(|index| side(random, index));
     let rubs = law != Law::Frictionless;
     Pair {
-        name,
+        name: name.to_owned(),
         sides,
         cap: (rubs && random.chance(0.1))
             .then(|| law.coefficient() * pressure * random.between(0.5, 2.0)),
         decay: (rubs && random.chance(0.1))
             .then(|| (random.between(0.6, 0.95), random.between(0.05, 0.5) * reach)),
         law,
+        origin: Origin::Scene,
     }
 }
 
@@ -313,6 +315,7 @@ pub fn scene(
         pairs,
         steps: Vec::new(),
         start: Start::Apart,
+        statement: Statement::Pairs,
         enforcement: None,
         ties: Vec::new(),
         ending: Ending::Open,
