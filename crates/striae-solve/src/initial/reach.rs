@@ -2,8 +2,8 @@
 //!
 //! What only prescribed displacements move goes as far as the farthest of them, and its
 //! deformation adds no more than that again; what it moves as one piece goes where
-//! [`nearest_approach`] says. Loads, inertia, ties and free coordinates may take a body
-//! anywhere.
+//! [`nearest_approach`] says. Loads, inertia, ties, free coordinates and functions of position
+//! and time may take a body anywhere.
 
 use striae_contact::initial::Fit;
 use striae_mesh::Vec3;
@@ -55,15 +55,18 @@ fn body_reach(model: &Model, body: BodyId) -> Option<f64> {
     }
     let mut farthest: Option<f64> = None;
     for step in &model.steps {
-        let loaded = step.loads.iter().any(|load| load.body == body);
+        let loaded = step.loads(body);
         let actuated = step.actuations.iter().any(|of| of.body == body);
         if loaded || actuated || step.gravity.is_some() || step.procedure != Procedure::QuasiStatic
         {
             return None;
         }
         for condition in step.displacements.iter().filter(|d| d.body == body) {
+            if condition.varies() {
+                return None;
+            }
             let way = condition
-                .components
+                .numbers()
                 .map(|component| component.unwrap_or(0.0).abs());
             farthest = Some(farthest.unwrap_or(0.0).max(Vec3::from(way).norm()));
         }
