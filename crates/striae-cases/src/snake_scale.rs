@@ -155,8 +155,8 @@ fn guided(study: &mut Study, name: &str, direction: [f64; 2]) -> Result<Run, Fai
     let step = &mut deck.model.steps[1];
     step.velocities[0].velocity = Vec3::new(direction[0], direction[1], 0.0);
     step.displacements[0].components = match direction {
-        [0.0, _] => [Some(0.0), None, None],
-        _ => [None, Some(0.0), None],
+        [0.0, _] => [Some(0.0.into()), None, None],
+        _ => [None, Some(0.0.into()), None],
     };
     study.run(name, deck)
 }
@@ -250,7 +250,7 @@ fn ran(study: &mut Study, (name, text): (&str, &str)) -> Result<Run, Failure> {
 fn ran_until(study: &mut Study, (name, text): (&str, &str), way: f64) -> Result<Run, Failure> {
     let mut deck = study.deck(name, text)?;
     let drag = &mut deck.model.steps[1];
-    drag.displacements[0].components[0] = Some(way);
+    drag.displacements[0].components[0] = Some(way.into());
     let size = drag.increments.largest / way;
     drag.increments = Increments {
         initial: size,

@@ -2,6 +2,8 @@
 //!
 //! Faults of what the deck describes are those of the model, [`striae_model::FaultKind`].
 
+use striae_model::NoFunction;
+
 /// One kind of fault with the names and numbers that explain it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FaultKind {
@@ -36,6 +38,29 @@ pub enum FaultKind {
     #[error("this expression cannot be computed: {cause}")]
     Expression {
         /// Reason.
+        cause: String,
+    },
+    /// A text that is no function of position and time.
+    #[error(transparent)]
+    Function(#[from] NoFunction),
+    /// A name of a parameter in a function that is the one of a variable.
+    #[error(
+        "`{name}` is a parameter and, in the function `{text}`, a coordinate or the time; give the parameter another name"
+    )]
+    Ambiguous {
+        /// The name.
+        name: String,
+        /// The function.
+        text: String,
+    },
+    /// A file of a curve that cannot be read.
+    #[error("curve file `{file}`{}: {cause}", line.map_or(String::new(), |line| format!(", line {line}")))]
+    CurveFile {
+        /// The file.
+        file: String,
+        /// Number of the line, counted from 1.
+        line: Option<usize>,
+        /// Reason and remedy.
         cause: String,
     },
     /// A parameter that no expression can name.

@@ -12,6 +12,8 @@ pub(crate) enum Form {
     Number(&'static [Bound]),
     /// A whole number not below a least one.
     Whole(usize),
+    /// A number or the text of a function of position and time.
+    Varying,
     /// A table of numbers or expressions with any names.
     NamedNumbers,
     /// One of several words.
@@ -72,6 +74,10 @@ impl Form {
             Self::Truth => "true or false".into(),
             Self::Number(bounds) => format!("a number{}", bounded(bounds)),
             Self::Whole(least) => format!("a whole number of at least {least}"),
+            Self::Varying => {
+                "a number or a function of `x`, `y`, `z` and `t`, such as \"0.1*x*sin(2*pi*t)\""
+                    .into()
+            }
             Self::NamedNumbers => "a table of numbers".into(),
             Self::Words(words) => format!("one of {}", ticked(words.iter().map(|(word, _)| *word))),
             Self::List(of, None) => format!("a list of {}", of.plural()),
@@ -90,6 +96,7 @@ impl Form {
             Self::Truth => "truths".into(),
             Self::Number(bounds) => format!("numbers{}", bounded(bounds)),
             Self::Whole(least) => format!("whole numbers of at least {least}"),
+            Self::Varying => "numbers or functions of `x`, `y`, `z` and `t`".into(),
             Self::NamedNumbers => "tables of numbers".into(),
             Self::Words(words) => {
                 format!("the words {}", ticked(words.iter().map(|(word, _)| *word)))

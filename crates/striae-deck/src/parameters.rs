@@ -231,10 +231,14 @@ impl Parameters {
             0 => "the deck has no [parameters]".to_owned(),
             _ => format!("[parameters] has {}", known.join(", ")),
         };
-        let hint = nearest(name, self.given.keys().map(String::as_str))
-            .map_or_else(String::new, |nearest| {
-                format!("; did you mean `{nearest}`?")
-            });
+        let nearest = nearest(name, self.given.keys().map(String::as_str));
+        let hint = match nearest {
+            Some(nearest) => format!("; did you mean `{nearest}`?"),
+            None if ["x", "y", "z", "t"].contains(&name) => {
+                "; a function of position and time is written without the `=`".to_owned()
+            }
+            None => String::new(),
+        };
         format!("there is no parameter `{name}`; {there}{hint}")
     }
 }

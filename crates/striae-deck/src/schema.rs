@@ -130,6 +130,7 @@ fn form_schema(form: &Form) -> Value {
         Form::Whole(least) => {
             json!({ "type": ["integer", "string"], "pattern": EXPRESSION, "minimum": least })
         }
+        Form::Varying => json!({ "type": ["number", "string"], "pattern": r"\S" }),
         Form::NamedNumbers => {
             json!({ "type": "object", "additionalProperties": { "type": ["number", "string"] } })
         }

@@ -1,6 +1,7 @@
 //! Plain values: texts, numbers within bounds, lists.
 
 use super::{
+    expression::is_expression,
     fault::FaultKind,
     faults::FaultList,
     form::{Bound, Form},
@@ -91,6 +92,31 @@ number! {
     Steepness [Bound::AtLeast(1.0)]
     /// A ratio of lateral contraction of a compressible material.
     PoissonsRatio [Bound::Above(-1.0), Bound::Below(0.5)]
+}
+
+/// A number, or the text of a function of position and time.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Varying {
+    Number(f64),
+    Function(String),
+}
+
+impl Read for Varying {
+    fn read(value: &Value<'_>, place: &Place, faults: &mut FaultList<'_>) -> Option<Self> {
+        match value.get_ref() {
+            DeValue::String(text) if !text.trim().is_empty() && !is_expression(text) => {
+                Some(Self::Function(text.to_string()))
+            }
+            number => match finite(number) {
+                Some(number) => Some(Self::Number(number)),
+                None => unexpected(value, place, faults, &Self::form()),
+            },
+        }
+    }
+
+    fn form() -> Form {
+        Form::Varying
+    }
 }
 
 /// A whole number of at least `LEAST`.

@@ -387,12 +387,12 @@ fn steps_state_what_they_change() {
         panic!("two conditions")
     };
     assert_eq!(
-        (bottom.set.as_str(), bottom.body, bottom.components),
+        (bottom.set.as_str(), bottom.body, bottom.numbers()),
         ("zmin", BodyId(0), [Some(0.0); 3])
     );
     assert_eq!(bottom.curve, Curve::Ramp);
     assert_eq!(
-        (top.body, top.components),
+        (top.body, top.numbers()),
         (BodyId(1), [None, None, Some(-0.02)])
     );
     assert_eq!(
@@ -404,14 +404,14 @@ fn steps_state_what_they_change() {
     let [traction, pressure] = &press.loads[..] else {
         panic!("two loads")
     };
-    assert_eq!(traction.kind, LoadKind::FollowerTraction(Vec3::x()));
+    assert_eq!(traction.kind, LoadKind::FollowerTraction(Vec3::x()).into());
     assert_eq!(
         (traction.body, traction.extent),
         (BodyId(1), LoadExtent::Whole)
     );
     assert_eq!(
-        (pressure.kind, pressure.extent),
-        (LoadKind::Pressure(3.0), LoadExtent::Exposed)
+        (pressure.kind.clone(), pressure.extent),
+        (LoadKind::Pressure(3.0).into(), LoadExtent::Exposed)
     );
 
     assert_eq!(slide.duration, 1.0);

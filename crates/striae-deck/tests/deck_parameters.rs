@@ -43,7 +43,7 @@ fn changed(from: &str, to: &str) -> String {
 }
 
 fn depth(model: &Model) -> f64 {
-    model.steps[0].displacements[0].components[2].expect("z")
+    model.steps[0].displacements[0].numbers()[2].expect("z")
 }
 
 #[test]

@@ -279,7 +279,9 @@ fn ranges() {
     misread(
         "infinite number",
         &[("value = 3", "value = inf")],
-        &["35:56: `value` in [[step]] pressure must be a number, but is inf"],
+        &[
+            "35:56: `value` in [[step]] pressure must be a number or a function of `x`, `y`, `z` and `t`, such as \"0.1*x*sin(2*pi*t)\", but is inf",
+        ],
     );
     misread(
         "Young's modulus of zero",

@@ -2,8 +2,10 @@
 //!
 //! [`write_atomically`] writes to a neighbour of the target and renames it, so a
 //! reader (or an interrupted run) sees the old content or the new, never half of
-//! either. [`quoted`] is one field of comma-separated text, [`Stems`] are names of files.
+//! either. [`quoted`] is one field of comma-separated text that is written, [`Separator`] parts
+//! fields of a text that is read, [`Stems`] are names of files.
 
+mod separator;
 mod stems;
 
 use std::ffi::OsString;
@@ -11,6 +13,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+pub use separator::Separator;
 pub use stems::Stems;
 
 /// Reason why a file could not be written or read.

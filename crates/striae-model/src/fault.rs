@@ -475,12 +475,42 @@ pub enum FaultKind {
         node: NodeId,
     },
     /// Points that do not make a curve.
-    #[error("the first numbers of the points of curve `{curve}` must ascend from 0 to 1, {found}")]
+    #[error("the points of curve `{curve}` must rise in their first number {found}")]
     BadCurve {
         /// The curve.
         curve: String,
         /// Description of the fault.
         found: String,
+    },
+    /// A curve that depends on position.
+    #[error(
+        "curve `{curve}` must be a function of `t` alone, but `{function}` depends on `x`, `y` or `z`; state it as the value itself"
+    )]
+    CurveOfPosition {
+        /// The curve.
+        curve: String,
+        /// The function.
+        function: String,
+    },
+    /// A function that has no value at some time.
+    #[error("`{function}` has no finite value at t = {t}; it must have one in all of its step")]
+    UndefinedCurve {
+        /// The function.
+        function: String,
+        /// The time.
+        t: f64,
+    },
+    /// A function that has no value at some point or time.
+    #[error(
+        "`{function}` has no finite value at x = {}, y = {}, z = {}, t = {t}; it must have one at all points that it is stated for and in all of its step", x[0], x[1], x[2]
+    )]
+    Undefined {
+        /// The function.
+        function: String,
+        /// The point.
+        x: [f64; 3],
+        /// The time.
+        t: f64,
     },
     /// Elastic constants of a material that is not stable.
     #[error(

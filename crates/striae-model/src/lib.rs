@@ -22,7 +22,8 @@ pub use build::{
     BodyBuilder, Component, Components, ModelBuilder, PairBuilder, RigidBuilder, SectionBuilder,
     SideBuilder, StepBuilder, TieBuilder, axial, body, circumferential, composite,
     equal_increments, extended, itself, model, nodal, painted, pair, plane, radial, rigid,
-    rigid_solid, rigid_surface, section, solver, step, surface, tie, tied, turned, uniform,
+    rigid_solid, rigid_surface, section, shared_force, solver, step, surface, tie, tied, turned,
+    uniform, usual_curve,
 };
 pub use check::{Draft, DraftBody, DraftPair, DraftStep, Known, Named, Validate, misshapen};
 pub use fault::{Fault, FaultKind, Faults};

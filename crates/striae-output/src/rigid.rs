@@ -11,6 +11,7 @@ use striae_contact::{pair::Geometry, texture::SideTexture};
 use striae_mesh::{NodeId, Vec3};
 use striae_solve::{
     model::{Freedom, RigidId, RigidShape},
+    plan::starts,
     problem::Problem,
     state::State,
 };
@@ -197,10 +198,15 @@ fn travels(problem: &Problem, body: usize, rigid: usize) -> Vec<Vec3> {
         ties.iter().any(|(tied, _)| tied.0 == body)
     };
     let (mut travels, mut to) = (vec![Vec3::zeros()], [Vec3::zeros(); 2]);
-    for step in &model.steps {
+    for (step, start) in model.steps.iter().zip(starts(model)) {
         for displacement in step.displacements.iter().filter(|d| d.body.0 == body) {
+            // A function stands for what it is at one of the nodes.
+            let node = displacement.nodes.first();
+            let x = node.map(|node| model.bodies[body].mesh.positions[node.index()]);
             for (axis, target) in displacement.components.iter().enumerate() {
-                to[0][axis] = target.unwrap_or(to[0][axis]);
+                if let (Some(target), Some(x)) = (target, x) {
+                    to[0][axis] = target.at(&x, start.later(1.0).time);
+                }
             }
         }
         for motion in &step.rigid_motions {

@@ -49,7 +49,7 @@ mod _striae {
         run::files::report,
         run::returned::returned,
         run::{Run, deck_of, resume, run},
-        step::Step,
+        step::{Step, check_function, moves},
         texture::Texture,
         tie::Tie,
     };

@@ -37,7 +37,7 @@ pub fn checked(model: &Model, steps: &[PyRef<'_, Step>]) -> PyResult<()> {
             let wrong = wrong(model, start, number, &known);
             faults.extend(wrong.map(|text| (format!("steps[{number}]"), text)));
         }
-        known = after(plan, &known, number);
+        known = after(model, plan, &known, number);
     }
     match faults.is_empty() {
         true => Ok(()),
@@ -78,16 +78,20 @@ fn wrong(model: &Model, start: &Start, step: usize, known: &Known) -> Option<Str
 }
 
 /// Displacements after a step.
-fn after(plan: &StepPlan, before: &Known, step: usize) -> Known {
-    let value = |key, how: &Prescription| {
+fn after(model: &Model, plan: &StepPlan, before: &Known, step: usize) -> Known {
+    let end = plan.end();
+    let value = |key: &(usize, usize, usize), how: &Prescription| {
+        let x = &model.bodies[key.0].mesh.positions[key.1];
         let start = match before.get(key) {
             None if step == 0 => Some(0.0),
             None => None,
             Some(value) => *value,
         };
         match (how, start) {
-            (how, Some(start)) => Some(how.at(start, 1.0)),
-            (Prescription::Go { target, curve }, None) if curve.at(1.0) == 1.0 => Some(*target),
+            (how, Some(start)) => Some(how.at([0.0, start], x, end)),
+            (Prescription::Go { target, curve }, None) if curve.at(end) == 1.0 => {
+                Some(target.at(x, end.time))
+            }
             _ => None,
         }
     };

@@ -2,12 +2,12 @@
 
 use pyo3::{exceptions::PyValueError, prelude::*};
 use striae::model::{
-    ActuationKind, Component, Curve, Freedom, Increments, LoadExtent, LoadKind, StepBuilder,
-    equal_increments, step,
+    ActuationKind, Clock, Component, Course, Curve, Freedom, Function, History, Increments,
+    LoadExtent, LoadKind, StepBuilder, Value, equal_increments, step,
 };
 use striae::solve::actuation::strain_in_axes;
 
-use crate::friction::Friction;
+use crate::{fault::refused, friction::Friction};
 
 /// Start value of a function.
 #[derive(Clone)]
@@ -24,11 +24,45 @@ pub struct Start {
     pub change: f64,
 }
 
-/// The name of a curve, or its points.
+/// The name of a curve, its points, or a clock with a period, points and the text of a function.
 #[derive(FromPyObject)]
 pub enum Along {
     Word(String),
     Points(Vec<(f64, f64)>),
+    Course(String, Option<f64>, Vec<(f64, f64)>, String),
+}
+
+/// A number, or the text of a function of position and time.
+#[derive(FromPyObject)]
+pub enum Target {
+    Number(f64),
+    Function(String),
+}
+
+impl Target {
+    fn value(self) -> PyResult<Value> {
+        match self {
+            Self::Number(number) => Ok(number.into()),
+            Self::Function(text) => Ok(function(&text)?.into()),
+        }
+    }
+}
+
+fn function(text: &str) -> PyResult<Function> {
+    Function::new(text).map_err(|fault| PyValueError::new_err(fault.to_string()))
+}
+
+/// Refuses a text that is no function of position and time.
+#[pyfunction]
+pub fn check_function(text: &str, path: &str) -> PyResult<()> {
+    let read = Function::new(text).map(|_| ());
+    read.map_err(|fault| refused(path, fault))
+}
+
+/// Returns whether a function of position and time changes with time.
+#[pyfunction]
+pub fn moves(text: &str) -> PyResult<bool> {
+    function(text).map(|function| function.moves())
 }
 
 impl Along {
@@ -36,6 +70,21 @@ impl Along {
     pub fn curve(self) -> PyResult<Curve> {
         match self {
             Self::Points(points) => Ok(Curve::Table(points)),
+            Self::Course(clock, period, points, text) => {
+                let clock = match clock.as_str() {
+                    "step" => Clock::Step,
+                    _ => Clock::Run,
+                };
+                let course = match (period, text.as_str()) {
+                    (Some(period), "") => Course::Periodic { points, period },
+                    (None, "") => Course::Table(points),
+                    (_, text) => Course::Function(function(text)?),
+                };
+                Ok(match (clock, course) {
+                    (Clock::Step, Course::Table(points)) => Curve::Table(points),
+                    (clock, course) => Curve::History(History { clock, course }),
+                })
+            }
             Self::Word(word) => match word.as_str() {
                 "ramp" => Ok(Curve::Ramp),
                 "constant" => Ok(Curve::Constant),
@@ -89,11 +138,15 @@ impl Step {
         &mut self,
         body: &str,
         nodes: &str,
-        components: [Option<f64>; 3],
+        components: [Option<Target>; 3],
         along: Along,
     ) -> PyResult<()> {
         let curve = along.curve()?;
-        self.build(|step| step.displace(body, nodes, components).along(curve));
+        let mut targets = [None, None, None];
+        for (target, stated) in targets.iter_mut().zip(components) {
+            *target = stated.map(Target::value).transpose()?;
+        }
+        self.build(|step| step.displace(body, nodes, targets).along(curve));
         Ok(())
     }
 
@@ -136,28 +189,52 @@ impl Step {
         &mut self,
         body: &str,
         facets: &str,
-        pressure: f64,
+        pressure: Target,
         exposed: bool,
         along: Along,
     ) -> PyResult<()> {
-        self.load(body, facets, LoadKind::Pressure(pressure), exposed, along)
+        let kind = LoadKind::Pressure(pressure.value()?);
+        self.load(body, facets, kind, exposed, along)
     }
 
     fn traction(
         &mut self,
         body: &str,
         facets: &str,
-        traction: [f64; 3],
+        traction: [Target; 3],
         follower: bool,
         exposed: bool,
         along: Along,
     ) -> PyResult<()> {
+        let [x, y, z] = traction.map(Target::value);
+        let traction = [x?, y?, z?];
         let kind = if follower {
             LoadKind::FollowerTraction(traction.into())
         } else {
             LoadKind::DeadTraction(traction.into())
         };
         self.load(body, facets, kind, exposed, along)
+    }
+
+    fn force(
+        &mut self,
+        body: &str,
+        nodes: &str,
+        force: [Target; 3],
+        each: bool,
+        along: Along,
+    ) -> PyResult<()> {
+        let curve = along.curve()?;
+        let [x, y, z] = force.map(Target::value);
+        let force = [x?, y?, z?];
+        self.build(|step| {
+            let pulled = match each {
+                true => step.force_at_each(body, nodes, force),
+                false => step.force(body, nodes, force),
+            };
+            pulled.along(curve)
+        });
+        Ok(())
     }
 
     /// A strain without stress by its components `xx`, `yy`, `zz`, `xy`, `yz`, `zx`.
@@ -285,7 +362,7 @@ impl Step {
         &mut self,
         body: &str,
         facets: &str,
-        kind: LoadKind,
+        kind: LoadKind<Value>,
         exposed: bool,
         along: Along,
     ) -> PyResult<()> {

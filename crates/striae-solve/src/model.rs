@@ -4,12 +4,14 @@
 //!
 //! Longer than other files, as it is the one list of everything that a model can contain.
 
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 pub use striae_contact::{pair::Enforcement, side::Side};
 use striae_law::{bulk::Material, friction::Friction};
 use striae_mesh::{ElementId, Face, Mesh, NodeId, Vec3};
 use striae_surface::texture::Paint;
+
+pub use crate::function::{Function, NoFunction, Value};
 
 /// A whole problem.
 #[derive(Clone, Debug, Serialize)]
@@ -285,18 +287,16 @@ pub struct InterferenceFit {
 }
 
 impl InterferenceFit {
-    /// Interference at the fraction `s` of a step.
-    pub fn at(&self, step: usize, s: f64) -> f64 {
-        self.value * self.curve.at(if step == 0 { s } else { 1.0 })
+    /// Interference at the fraction `s` of a step, with the start of the first one.
+    pub fn at(&self, step: usize, s: f64, first: Moment) -> f64 {
+        let s = if step == 0 { s } else { 1.0 };
+        self.value * self.curve.at(first.later(s))
     }
 
     /// The largest overlap on the way.
-    pub fn largest(&self) -> f64 {
-        let most = match &self.curve {
-            Curve::Ramp | Curve::Constant | Curve::Smooth => 1.0,
-            Curve::Table(points) => points.iter().map(|point| point.1).fold(1.0, f64::max),
-        };
-        (most * self.value).max(0.0)
+    pub fn largest(&self, first: Moment) -> f64 {
+        let [_, most] = self.curve.range(first);
+        (most.max(1.0) * self.value).max(0.0)
     }
 }
 
@@ -340,6 +340,8 @@ pub struct Step {
     pub releases: Vec<Release>,
     /// Loads on faces.
     pub loads: Vec<Load>,
+    /// Forces at nodes.
+    pub forces: Vec<NodalForce>,
     /// Actuation of bodies and their sections.
     pub actuations: Vec<Actuation>,
     /// Displacements of rigid surfaces.
@@ -411,10 +413,24 @@ pub struct Displacement {
     pub body: BodyId,
     /// Its nodes.
     pub nodes: Vec<NodeId>,
-    /// Target by component; `None` leaves the component unchanged.
-    pub components: [Option<f64>; 3],
+    /// Target by component; `None` leaves the component as it is.
+    pub components: [Option<Value>; 3],
     /// Curve towards the target.
     pub curve: Curve,
+}
+
+impl Displacement {
+    /// Targets that are numbers.
+    pub fn numbers(&self) -> [Option<f64>; 3] {
+        let components = self.components.each_ref();
+        components.map(|component| component.as_ref().and_then(Value::number))
+    }
+
+    /// Returns whether a target is a function.
+    pub fn varies(&self) -> bool {
+        let mut stated = self.components.iter().flatten();
+        stated.any(|target| target.number().is_none())
+    }
 }
 
 /// End of prescribed displacements.
@@ -438,22 +454,46 @@ pub struct Load {
     /// Its faces.
     pub faces: Vec<Face>,
     /// Kind of load on the faces.
-    pub kind: LoadKind,
+    pub kind: LoadKind<Value>,
     /// Part of the faces that is loaded.
     pub extent: LoadExtent,
     /// Curve towards the target.
     pub curve: Curve,
 }
 
-/// Kinds of loads with their targets.
+/// Forces of fixed directions at nodes of a body.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct NodalForce {
+    /// Name of the node set; the same name in a later step replaces the force.
+    pub set: String,
+    /// The body.
+    pub body: BodyId,
+    /// Its nodes.
+    pub nodes: Vec<NodeId>,
+    /// Target of the force at each node.
+    pub force: Vector3<Value>,
+    /// Curve towards the target.
+    pub curve: Curve,
+}
+
+impl Step {
+    /// Returns whether forces act on a body or its faces.
+    pub fn loads(&self, body: BodyId) -> bool {
+        self.loads.iter().any(|load| load.body == body)
+            || self.forces.iter().any(|force| force.body == body)
+    }
+}
+
+/// Kinds of loads with their targets: numbers, or what they are made of at all points and times.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub enum LoadKind {
+#[serde(bound = "S: Serialize + nalgebra::Scalar")]
+pub enum LoadKind<S = f64> {
     /// Force per reference area of fixed direction.
-    DeadTraction(Vec3),
+    DeadTraction(Vector3<S>),
     /// Force per current area that turns with the facet.
-    FollowerTraction(Vec3),
+    FollowerTraction(Vector3<S>),
     /// Force per current area against the current normal.
-    Pressure(f64),
+    Pressure(S),
 }
 
 /// Strain or tension imposed on a body, see [`crate::actuation`].
@@ -532,7 +572,8 @@ pub enum Freedom {
 /// Share of the change that is done, over the fraction of the step.
 ///
 /// A quantity that goes from `v0` to the target `v1` has the value
-/// `v0 + c(s) (v1 - v0)` at the fraction `s` of the step.
+/// `v0 + c(s) (v1 - v0)` at the fraction `s` of the step, where `v0` is what the step finds; of
+/// a history over the time of the run, what there is at rest.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum Curve {
     /// `c(s) = s`.
@@ -543,6 +584,53 @@ pub enum Curve {
     Smooth,
     /// Piecewise linear through points `(s, c)`, `s` rising from 0 to 1.
     Table(Vec<(f64, f64)>),
+    /// Any other course.
+    History(History),
+}
+
+/// A point of a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Moment {
+    /// Fraction of the step that is done.
+    pub s: f64,
+    /// Time of the run.
+    pub time: f64,
+    /// Duration of the step.
+    pub duration: f64,
+}
+
+/// A course of a quantity that is not tied to the ends of a step.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct History {
+    /// Abscissa.
+    pub clock: Clock,
+    /// Values over it.
+    pub course: Course,
+}
+
+/// Abscissa of a history.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub enum Clock {
+    /// Fraction of the step; values are shares of the change that is done.
+    Step,
+    /// Time of the run; values are multiples of the target, whatever was before.
+    Run,
+}
+
+/// Values of a history.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub enum Course {
+    /// Linear between points, constant beyond them.
+    Table(Vec<(f64, f64)>),
+    /// Points that are repeated again and again.
+    Periodic {
+        /// The points.
+        points: Vec<(f64, f64)>,
+        /// When the points begin again.
+        period: f64,
+    },
+    /// A function of `t`, the abscissa.
+    Function(Function),
 }
 
 /// Settings of Newton's method and the linear solver.

@@ -17,14 +17,13 @@
 //! Angles may also count from along the texture, see [`AngleFrom`].
 
 mod header;
-mod lines;
 
 use std::{fmt, str::FromStr};
 
+use striae_files::Separator;
 use striae_law::fit::Reading;
 
 use header::Header;
-use lines::Separator;
 
 /// Names of columns.
 const COLUMNS: [&str; 7] = [

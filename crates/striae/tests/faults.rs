@@ -166,7 +166,7 @@ fn displaced(
         set: set.into(),
         body: striae::model::BodyId(1),
         nodes: bodies[1].mesh.node_sets.get(set).unwrap().to_vec(),
-        components: [None, None, z],
+        components: [None, None, z.map(Into::into)],
         curve: Curve::Ramp,
     }
 }
@@ -177,7 +177,7 @@ fn press(bodies: &[striae::model::Body]) -> Step {
         set: "xmin".into(),
         body: striae::model::BodyId(0),
         faces: mesh.facet_sets.get("xmin").unwrap().to_vec(),
-        kind: LoadKind::Pressure(pressure),
+        kind: LoadKind::Pressure(pressure).into(),
         extent: LoadExtent::Whole,
         curve: Curve::Ramp,
     };
@@ -208,6 +208,7 @@ fn press(bodies: &[striae::model::Body]) -> Step {
             nodes: mesh.node_sets.get("zmin").unwrap().to_vec(),
             components: [false; 3],
         }],
+        forces: Vec::new(),
         loads: vec![pressed(1.0), pressed(2.0)],
         actuations: Vec::new(),
         rigid_motions: vec![RigidMotion {

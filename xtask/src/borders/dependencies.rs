@@ -146,6 +146,7 @@ const LADDER: &[Row] = &[
     Row {
         name: "striae-deck",
         own: &[
+            "striae-files",
             "striae-law",
             "striae-mesh",
             "striae-meshfile",

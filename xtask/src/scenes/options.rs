@@ -21,11 +21,11 @@ pub struct Options {
     pub binary: Option<PathBuf>,
     /// Method of contact; the program's default if absent.
     pub enforcement: Option<&'static str>,
-    /// How scenes say what may touch.
+    /// Statement of what may touch.
     pub posing: Posing,
 }
 
-/// How scenes say what may touch.
+/// Statement of what may touch in all scenes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Posing {
     /// As they are.

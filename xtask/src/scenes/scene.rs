@@ -30,7 +30,7 @@ pub struct Scene {
     pub steps: Vec<Step>,
     /// Start of the bodies: apart, or overlapping.
     pub start: Start,
-    /// How the deck says what may touch.
+    /// Statement of what may touch.
     pub statement: Statement,
     /// Method of contact to ask for.
     pub enforcement: Option<&'static str>,
@@ -44,7 +44,7 @@ pub struct Scene {
     pub reference: Option<Box<Scene>>,
 }
 
-/// How the deck says what may touch.
+/// Statement of what may touch in a deck.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Statement {
     /// By its pairs.
@@ -228,11 +228,11 @@ pub struct Pair {
     pub cap: Option<f64>,
     /// Ratio of kinetic to static friction, and the rate of the decay.
     pub decay: Option<(f64, f64)>,
-    /// Where it comes from.
+    /// Its origin.
     pub origin: Origin,
 }
 
-/// Where a pair comes from.
+/// Origin of a pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Origin {
     /// The scene is about it.

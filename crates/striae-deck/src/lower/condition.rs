@@ -1,15 +1,13 @@
 //! Displacement conditions, releases and loads of a step.
 
 use super::{Listed, Scope, list};
-use crate::{
-    faults::FaultList,
-    raw,
-    read::At,
-    value::{Text, vector},
-};
+use crate::{faults::FaultList, raw, read::At, value::Text};
 use std::collections::BTreeSet;
 use striae_mesh::NodeId;
-use striae_solve::model::{BodyId, Curve, Displacement, Load, LoadExtent, LoadKind, Release};
+use striae_model::{shared_force, usual_curve};
+use striae_solve::model::{
+    BodyId, Curve, Displacement, Load, LoadExtent, LoadKind, NodalForce, Release, Value,
+};
 
 /// One component of one node of a body.
 type Freedom = (BodyId, NodeId, usize);
@@ -58,11 +56,13 @@ pub(super) fn displacements(
 ) -> Listed<Displacement> {
     Listed::new(raw, |displacement| {
         let value = &displacement.value;
-        let components = [&value.x, &value.y, &value.z]
-            .map(|target| target.as_ref().map(|target| target.value.0));
-        let curve = scope.curves.find(value.curve.as_ref(), faults);
+        let stated = [&value.x, &value.y, &value.z];
+        let components = scope.parameters.components(stated, faults);
+        let moves = components.iter().flatten().flatten().any(Value::moves);
+        let usual = usual_curve(moves);
+        let curve = scope.curves.find_or(usual, value.curve.as_ref(), faults);
         let (body, set, nodes) = nodes(&value.body, &value.nodes, scope, faults)?;
-        for component in (0..3).filter(|component| components[*component].is_some()) {
+        for component in (0..3).filter(|component| stated[*component].is_some()) {
             history
                 .0
                 .extend(nodes.iter().map(|node| (body, *node, component)));
@@ -71,10 +71,10 @@ pub(super) fn displacements(
             set: set.into(),
             body,
             nodes,
-            components,
+            components: components?,
             // A condition that prescribes nothing is a fault whatever its curve.
             curve: match curve {
-                None if components == [None; 3] => Curve::Ramp,
+                None if stated.iter().all(|target| target.is_none()) => Curve::Ramp,
                 curve => curve?,
             },
         })
@@ -88,33 +88,67 @@ pub(super) fn loads(
     faults: &mut FaultList<'_>,
 ) -> Listed<Load> {
     let tractions = Listed::new(list(&raw.traction), |At { value: raw, .. }| {
-        let kind = raw.vector.as_ref().map(|target| {
-            match raw.direction.as_ref().map(|direction| direction.value) {
-                None | Some(raw::Direction::Dead) => LoadKind::DeadTraction(vector(&target.value)),
-                Some(raw::Direction::Follower) => LoadKind::FollowerTraction(vector(&target.value)),
-            }
+        let target = raw.vector.as_ref();
+        let target = target.and_then(|target| scope.parameters.vector(target, faults));
+        let direction = raw.direction.as_ref().map(|direction| direction.value);
+        let kind = target.map(|target| match direction {
+            None | Some(raw::Direction::Dead) => LoadKind::DeadTraction(target.into()),
+            Some(raw::Direction::Follower) => LoadKind::FollowerTraction(target.into()),
         });
         let place = (&raw.body, &raw.facets);
         load(place, kind, &raw.extent, &raw.curve, scope, faults)
     });
     let pressures = Listed::new(list(&raw.pressure), |At { value: raw, .. }| {
         let target = raw.value.as_ref();
-        let kind = target.map(|target| LoadKind::Pressure(target.value.0));
+        let target = target.and_then(|at| scope.parameters.value(&at.value, &at.span, faults));
+        let kind = target.map(LoadKind::Pressure);
         let place = (&raw.body, &raw.facets);
         load(place, kind, &raw.extent, &raw.curve, scope, faults)
     });
     tractions.and(pressures)
 }
 
+/// The forces at nodes of a step.
+pub(super) fn forces(
+    raw: &[At<raw::Force>],
+    scope: &Scope<'_>,
+    faults: &mut FaultList<'_>,
+) -> Listed<NodalForce> {
+    Listed::new(raw, |At { value: raw, .. }| {
+        let stated = match raw.target.as_ref() {
+            Some(raw::ForceTarget::Total(of)) => of.total.as_ref(),
+            Some(raw::ForceTarget::Each(of)) => of.each.as_ref(),
+            None => None,
+        };
+        let target = stated.and_then(|target| scope.parameters.vector(target, faults));
+        let moves = target.iter().flatten().any(Value::moves);
+        let usual = usual_curve(moves);
+        let curve = scope.curves.find_or(usual, raw.curve.as_ref(), faults);
+        let (body, set, nodes) = nodes(&raw.body, &raw.nodes, scope, faults)?;
+        let target = target?.into();
+        Some(NodalForce {
+            set: set.into(),
+            body,
+            force: match raw.target.as_ref()? {
+                raw::ForceTarget::Total(_) => shared_force(&target, nodes.len()),
+                raw::ForceTarget::Each(_) => target,
+            },
+            nodes,
+            curve: curve?,
+        })
+    })
+}
+
 fn load(
     (body, facets): (&Option<At<Text>>, &Option<At<Text>>),
-    kind: Option<LoadKind>,
+    kind: Option<LoadKind<Value>>,
     extent: &Option<At<raw::Extent>>,
     curve: &Option<At<Text>>,
     scope: &Scope<'_>,
     faults: &mut FaultList<'_>,
 ) -> Option<Load> {
-    let curve = scope.curves.find(curve.as_ref(), faults);
+    let usual = usual_curve(kind.as_ref().is_some_and(LoadKind::moves));
+    let curve = scope.curves.find_or(usual, curve.as_ref(), faults);
     let body = scope.bodies.find(body.as_ref(), faults)?;
     let faces = scope.bodies.faces(body, facets.as_ref(), faults)?;
     let extent = match extent.as_ref().map(|extent| extent.value) {

@@ -1,15 +1,19 @@
 //! Curves along which conditions change.
 
+mod file;
+
+use super::function::Parameters;
 use crate::{
     fault::FaultKind,
     faults::FaultList,
     names::Names,
     raw,
     read::At,
-    value::{Number, Text},
+    value::{Number, Positive, Text},
 };
+use std::path::Path;
 use striae_model::{FaultKind as ModelFault, misshapen, nearest};
-use striae_solve::model::Curve;
+use striae_solve::model::{Clock, Course, Curve, History};
 
 const BUILT_IN: [(&str, Curve); 3] = [
     ("ramp", Curve::Ramp),
@@ -25,7 +29,12 @@ pub(super) struct Curves {
 }
 
 impl Curves {
-    pub(super) fn new(raw: &[At<raw::NamedCurve>], faults: &mut FaultList<'_>) -> Self {
+    pub(super) fn new(
+        raw: &[At<raw::NamedCurve>],
+        base: &Path,
+        parameters: &Parameters,
+        faults: &mut FaultList<'_>,
+    ) -> Self {
         let names = || raw.iter().map(|curve| curve.value.name.as_ref());
         for name in names()
             .flatten()
@@ -50,7 +59,7 @@ impl Curves {
             known,
             curves: raw
                 .iter()
-                .map(|curve| table(&curve.value, faults))
+                .map(|curve| lowered(&curve.value, base, parameters, faults))
                 .collect(),
         }
     }
@@ -61,8 +70,18 @@ impl Curves {
         name: Option<&At<Text>>,
         faults: &mut FaultList<'_>,
     ) -> Option<Curve> {
+        self.find_or(Curve::Ramp, name, faults)
+    }
+
+    /// The curve of that name; the usual one where none is given.
+    pub(super) fn find_or(
+        &self,
+        usual: Curve,
+        name: Option<&At<Text>>,
+        faults: &mut FaultList<'_>,
+    ) -> Option<Curve> {
         let Some(name) = name else {
-            return Some(Curve::Ramp);
+            return Some(usual);
         };
         if let Some(curve) = built_in(&name.value.0) {
             return Some(curve);
@@ -88,28 +107,58 @@ fn built_in(name: &str) -> Option<Curve> {
         .map(|(_, curve)| curve)
 }
 
-fn table(raw: &raw::NamedCurve, faults: &mut FaultList<'_>) -> Option<Curve> {
-    let points = raw
-        .points
-        .as_ref()
-        .filter(|points| !faults.within(&points.span))?;
-    let pairs: Vec<(f64, f64)> = points
-        .value
-        .iter()
-        .map(
-            |At {
-                 value: [Number(s), Number(c)],
-                 ..
-             }| (*s, *c),
-        )
-        .collect();
-    let Some(found) = misshapen(&pairs) else {
-        return Some(Curve::Table(pairs));
+fn lowered(
+    raw: &raw::NamedCurve,
+    base: &Path,
+    parameters: &Parameters,
+    faults: &mut FaultList<'_>,
+) -> Option<Curve> {
+    let clock = match raw.time.as_ref().map(|time| time.value) {
+        None | Some(raw::CurveTime::Step) => Clock::Step,
+        Some(raw::CurveTime::Run) => Clock::Run,
     };
-    let curve = raw
-        .name
-        .as_ref()
-        .map_or(String::new(), |name| name.value.0.clone());
-    faults.push(&points.span, ModelFault::BadCurve { curve, found });
-    None
+    let (span, course) = match raw.course.as_ref()? {
+        raw::Course::Points(of) => {
+            let points = of.points.as_ref();
+            let points = points.filter(|points| !faults.within(&points.span))?;
+            let pair = |At { value: [s, c], .. }: &At<[Number; 2]>| (s.0, c.0);
+            let pairs = points.value.iter().map(pair).collect();
+            (&points.span, course(pairs, &of.period))
+        }
+        raw::Course::File(of) => {
+            let stated = of.file.as_ref()?;
+            let columns = of.columns.as_ref()?.value.each_ref().map(|text| &*text.0);
+            let skipped = of.skip.as_ref().map_or(0, |skip| skip.value.0);
+            let read = file::points(base, &stated.value.0, columns, skipped);
+            let pairs = read.map_err(|kind| faults.push(&stated.span, kind)).ok()?;
+            (&stated.span, course(pairs, &of.period))
+        }
+        raw::Course::Function(of) => {
+            let stated = of.function.as_ref()?;
+            let function = parameters.function(&stated.value.0, &stated.span, faults)?;
+            (&stated.span, Course::Function(function))
+        }
+    };
+    let curve = match (clock, course) {
+        (Clock::Step, Course::Table(points)) => Curve::Table(points),
+        (clock, course) => Curve::History(History { clock, course }),
+    };
+    let name = raw.name.as_ref().map_or("", |name| &name.value.0);
+    match misshapen(name, &curve) {
+        None => Some(curve),
+        Some(kind) => {
+            faults.push(span, kind);
+            None
+        }
+    }
+}
+
+fn course(points: Vec<(f64, f64)>, period: &Option<At<Positive>>) -> Course {
+    match period {
+        None => Course::Table(points),
+        Some(period) => Course::Periodic {
+            points,
+            period: period.value.0,
+        },
+    }
 }

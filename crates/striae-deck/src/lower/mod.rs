@@ -14,6 +14,7 @@ mod everything;
 mod fibres;
 mod formulation;
 mod friction;
+mod function;
 mod generator;
 mod inertia;
 mod listed;
@@ -58,6 +59,7 @@ struct Scope<'r> {
     rigid: &'r Names,
     pair_names: &'r Names,
     curves: &'r curve::Curves,
+    parameters: &'r function::Parameters,
 }
 
 /// The deck, or `None` after its faults have been noted.
@@ -149,7 +151,8 @@ fn parts(raw: &raw::Simulation, base: &Path, known: Known, faults: &mut FaultLis
         written: raw,
         base,
     };
-    let curves = curve::Curves::new(list(&raw.curve), faults);
+    let parameters = function::Parameters::of(raw);
+    let curves = curve::Curves::new(list(&raw.curve), base, &parameters, faults);
     let pairs = contact::pairs(list(&raw.pair), &surfaces, &curves, faults);
     let names = list(&raw.tie).iter().map(|at| at.value.name.as_ref());
     Names::new("tie", names, faults);
@@ -168,6 +171,7 @@ fn parts(raw: &raw::Simulation, base: &Path, known: Known, faults: &mut FaultLis
         rigid: &rigid_names,
         pair_names: &pair_names,
         curves: &curves,
+        parameters: &parameters,
     };
     let steps = step::steps(list(&raw.step), &scope, faults);
     Parts {

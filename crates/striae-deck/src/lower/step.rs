@@ -50,6 +50,7 @@ fn lower_step(
     let releases = condition::releases(list(&raw.release), scope, history, faults);
     let displacements = condition::displacements(list(&raw.displacement), scope, history, faults);
     let loads = condition::loads(raw, scope, faults);
+    let forces = condition::forces(list(&raw.force), scope, faults);
     let actuations = actuation::actuations(raw, scope, faults);
     let velocities = inertia::velocities(raw, name, scope, faults);
     let gravity = inertia::gravity(raw, scope, faults);
@@ -58,6 +59,7 @@ fn lower_step(
     let whole = releases.whole()
         && displacements.whole()
         && loads.whole()
+        && forces.whole()
         && actuations.whole()
         && velocities.whole()
         && gravity.is_some()
@@ -74,6 +76,7 @@ fn lower_step(
                 ("releases", releases.spans),
                 ("displacements", displacements.spans),
                 ("loads", loads.spans),
+                ("forces", forces.spans),
                 ("actuations", actuations.spans),
                 ("velocities", velocities.spans),
                 ("rigid_motions", rigid_motions.spans),
@@ -93,6 +96,7 @@ fn lower_step(
             displacements: displacements.items,
             releases: releases.items,
             loads: loads.items,
+            forces: forces.items,
             actuations: actuations.items,
             rigid_motions: rigid_motions.items,
             frictions: frictions.items,

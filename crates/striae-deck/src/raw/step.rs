@@ -6,18 +6,70 @@ use crate::{
     faults::FaultList,
     form::Form,
     read::{At, Place, Read, Value, read_table, unexpected},
-    value::{Count, Fraction, Number, Positive, Text},
+    value::{Count, Fraction, Number, Positive, Text, Varying, Whole},
 };
 use toml::de::DeValue;
 
 table! {
-    /// A piecewise linear curve along which conditions change.
+    /// A curve for conditions to change along.
     NamedCurve {
         /// Unique name, other than `ramp`, `constant` and `smooth`, which are built in.
         required name: Text,
-        /// Pairs of the fraction of the step, ascending from 0 to 1, and the fraction of the change
-        /// completed by then.
+        /// Its course.
+        include course: Course,
+        /// Abscissa of the curve. Default: `step`.
+        optional time: CurveTime,
+    }
+}
+
+either! {
+    /// The course of a curve.
+    Course {
+        Points(CoursePoints),
+        File(CourseFile),
+        Function(CourseFunction),
+    }
+}
+
+table! {
+    /// Points with straight lines between them.
+    CoursePoints {
+        /// Pairs of time and value, rising in time; over a step from 0 to 1.
         required points: Vec<At<[Number; 2]>>,
+        /// Time after which the points begin again; they lie within it. Default: they do not.
+        optional period: Positive,
+    }
+}
+
+table! {
+    /// Points from a text file with a line each, below a line with the names of columns. Fields are separated by semicolons, tabs or commas; beside semicolons and tabs a comma may be the decimal sign. What follows a `#` is passed over.
+    CourseFile {
+        /// The file, relative to the deck.
+        required file: Text,
+        /// Names of the columns with times and values, or their numbers from 1.
+        required columns: [Text; 2],
+        /// Lines at the beginning that are passed over. Default: 0.
+        optional skip: Whole<0>,
+        /// Time after which the points begin again; they lie within it. Default: they do not.
+        optional period: Positive,
+    }
+}
+
+table! {
+    /// A function of time.
+    CourseFunction {
+        /// A text such as `"sin(2*pi*t)"`, with angles in radians. `t` is the abscissa of the curve.
+        required function: Text,
+    }
+}
+
+words! {
+    /// The abscissa of a curve.
+    CurveTime {
+        /// Fraction of the step; values are shares of the change that is done then.
+        Step = "step",
+        /// Time of the run; values are multiples of the target, whatever was before.
+        Run = "run",
     }
 }
 
@@ -45,6 +97,8 @@ table! {
         optional traction: Vec<At<Traction>>,
         /// Pressures on facets.
         optional pressure: Vec<At<Pressure>>,
+        /// Forces at nodes.
+        optional force: Vec<At<Force>>,
         /// Stress-free strains and tensions of bodies.
         optional actuation: Vec<At<Actuation>>,
         /// Motions of rigid bodies.
@@ -154,13 +208,12 @@ table! {
         /// Name of its node set.
         required nodes: Text,
         /// Target of the first component; absent components keep their state.
-        optional x: Number,
+        optional x: Varying,
         /// Target of the second component.
-        optional y: Number,
+        optional y: Varying,
         /// Target of the third component.
-        optional z: Number,
-        /// Curve towards the target: `ramp`, `constant`, `smooth` or the name of a curve. Default:
-        /// `ramp`.
+        optional z: Varying,
+        /// Curve towards the target: `ramp`, `constant`, `smooth` or the name of a curve. Default: `ramp`; of functions of `t` `constant`, as they are followed.
         optional curve: Text,
     }
 }
@@ -197,7 +250,7 @@ table! {
         /// Name of its facet set.
         required facets: Text,
         /// Target of the traction.
-        required vector: [Number; 3],
+        required vector: [Varying; 3],
         /// Direction of the force as the body deforms. Default: `dead`.
         optional direction: Direction,
         /// Part of the facets that is loaded. Default: `whole`.
@@ -236,12 +289,49 @@ table! {
         /// Name of its facet set.
         required facets: Text,
         /// Target of the pressure, positive inwards.
-        required value: Number,
+        required value: Varying,
         /// Part of the facets that is loaded. Default: `whole`.
         optional extent: Extent,
-        /// Curve towards the target: `ramp`, `constant`, `smooth` or the name of a curve. Default:
-        /// `ramp`.
+        /// Curve towards the target: `ramp`, `constant`, `smooth` or the name of a curve. Default: `ramp`; of functions of `t` `constant`.
         optional curve: Text,
+    }
+}
+
+table! {
+    /// Force of fixed direction at the nodes of a set, which may be a single one: see `nearest` and `numbers` of `set`.
+    Force {
+        /// Name of the body.
+        required body: Text,
+        /// Name of its node set.
+        required nodes: Text,
+        /// The force.
+        include target: ForceTarget,
+        /// Curve towards the target: `ramp`, `constant`, `smooth` or the name of a curve. Default: `ramp`; of functions of `t` `constant`.
+        optional curve: Text,
+    }
+}
+
+either! {
+    /// Nodes that a force is stated for.
+    ForceTarget {
+        Total(ForceTotal),
+        Each(ForceEach),
+    }
+}
+
+table! {
+    /// A force that all nodes take in equal parts.
+    ForceTotal {
+        /// Target of the force at all nodes together.
+        required total: [Varying; 3],
+    }
+}
+
+table! {
+    /// A force at each node.
+    ForceEach {
+        /// Target of the force at each node.
+        required each: [Varying; 3],
     }
 }
 

@@ -23,7 +23,7 @@ use std::fmt;
 
 use mesh::Meshes;
 use striae_output::Output;
-use striae_solve::model::{Backend, Curve, Model, Solver, Strategy};
+use striae_solve::model::{Backend, Clock, Course, Curve, Model, Solver, Strategy};
 use value::{number, text};
 
 /// Parts of a model that a deck cannot state.
@@ -74,8 +74,8 @@ pub fn write(model: &Model, output: &Output) -> Result<String, Unstated> {
 struct Writer<'m> {
     model: &'m Model,
     meshes: Meshes<'m>,
-    /// Tables of curves, by number.
-    curves: Vec<&'m [(f64, f64)]>,
+    /// Curves that are not built in, by number.
+    curves: Vec<&'m Curve>,
     unstated: Vec<(String, &'static str)>,
 }
 
@@ -91,10 +91,10 @@ impl<'m> Writer<'m> {
             Curve::Ramp => return String::new(),
             Curve::Constant => "constant".to_owned(),
             Curve::Smooth => "smooth".to_owned(),
-            Curve::Table(points) => {
-                let known = self.curves.iter().position(|known| *known == &points[..]);
+            Curve::Table(_) | Curve::History(_) => {
+                let known = self.curves.iter().position(|known| *known == curve);
                 let at = known.unwrap_or_else(|| {
-                    self.curves.push(points);
+                    self.curves.push(curve);
                     self.curves.len() - 1
                 });
                 curve_name(at)
@@ -104,17 +104,41 @@ impl<'m> Writer<'m> {
     }
 
     fn curves(&self) -> String {
-        let curve = |(at, points): (usize, &&[(f64, f64)])| {
-            let points = value::list(
-                points
-                    .iter()
-                    .map(|(s, c)| value::list([*s, *c].map(number))),
-            );
+        let curve = |(at, curve): (usize, &&Curve)| {
             let name = text(&curve_name(at));
-            format!("\n[[curve]]\nname = {name}\npoints = {points}\n")
+            format!("\n[[curve]]\nname = {name}\n{}", course(curve))
         };
         self.curves.iter().enumerate().map(curve).collect()
     }
+}
+
+/// The keys of a curve that is not built in.
+fn course(curve: &Curve) -> String {
+    let listed = |points: &[(f64, f64)]| {
+        let pairs = points.iter();
+        value::list(pairs.map(|(s, c)| value::list([*s, *c].map(number))))
+    };
+    let history = match curve {
+        Curve::Ramp | Curve::Constant | Curve::Smooth => return String::new(),
+        Curve::Table(points) => return format!("points = {}\n", listed(points)),
+        Curve::History(history) => history,
+    };
+    let time = match history.clock {
+        Clock::Step => "step",
+        Clock::Run => "run",
+    };
+    let course = match &history.course {
+        Course::Table(points) => format!("points = {}\n", listed(points)),
+        Course::Periodic { points, period } => {
+            format!(
+                "points = {}\nperiod = {}\n",
+                listed(points),
+                number(*period)
+            )
+        }
+        Course::Function(function) => format!("function = {}\n", text(function.text())),
+    };
+    format!("{course}time = \"{time}\"\n")
 }
 
 fn curve_name(at: usize) -> String {

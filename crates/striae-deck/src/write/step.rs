@@ -1,12 +1,12 @@
 //! Steps and what they state.
 
 use striae_solve::model::{
-    Displacement, Freedom, Load, LoadExtent, LoadKind, Mover, Procedure, Release, RigidMotion,
-    Step, Velocity,
+    Displacement, Freedom, Load, LoadExtent, LoadKind, Mover, NodalForce, Procedure, Release,
+    RigidMotion, Step, Velocity,
 };
 
 use super::mesh::lines;
-use super::value::{degrees, list, number, text, vector};
+use super::value::{degrees, list, number, text, varying, vector};
 use super::{Writer, law};
 
 /// Names of the coordinates of a rigid body.
@@ -75,6 +75,10 @@ impl<'m> Writer<'m> {
                 pressures.into_iter().map(|one| self.load(one)).collect(),
             ),
             (
+                "force",
+                step.forces.iter().map(|one| self.force(one)).collect(),
+            ),
+            (
                 "actuation",
                 step.actuations
                     .iter()
@@ -132,9 +136,9 @@ impl<'m> Writer<'m> {
         let set = self.meshes.nodes(one.body, &one.set, &one.nodes);
         let body = text(&self.model.bodies[one.body.0].name);
         let mut told = format!("body = {body}, nodes = {}", text(&set));
-        for (name, component) in COORDINATES.iter().zip(one.components) {
+        for (name, component) in COORDINATES.iter().zip(&one.components) {
             if let Some(target) = component {
-                told += &format!(", {name} = {}", number(target));
+                told += &format!(", {name} = {}", varying(target));
             }
         }
         format!("{{ {told}{} }}", self.curve(&one.curve))
@@ -161,12 +165,18 @@ impl<'m> Writer<'m> {
         let body = text(&self.model.bodies[one.body.0].name);
         let kind = match &one.kind {
             LoadKind::DeadTraction(target) => {
-                format!("vector = {}, direction = \"dead\"", vector(target))
+                format!(
+                    "vector = {}, direction = \"dead\"",
+                    list(target.iter().map(varying))
+                )
             }
             LoadKind::FollowerTraction(target) => {
-                format!("vector = {}, direction = \"follower\"", vector(target))
+                format!(
+                    "vector = {}, direction = \"follower\"",
+                    list(target.iter().map(varying))
+                )
             }
-            LoadKind::Pressure(target) => format!("value = {}", number(*target)),
+            LoadKind::Pressure(target) => format!("value = {}", varying(target)),
         };
         let extent = match one.extent {
             LoadExtent::Whole => "whole",
@@ -174,6 +184,14 @@ impl<'m> Writer<'m> {
         };
         let curve = self.curve(&one.curve);
         format!("{{ body = {body}, facets = {set}, {kind}, extent = \"{extent}\"{curve} }}")
+    }
+
+    fn force(&mut self, one: &'m NodalForce) -> String {
+        let set = text(&self.meshes.nodes(one.body, &one.set, &one.nodes));
+        let body = text(&self.model.bodies[one.body.0].name);
+        let each = list(one.force.iter().map(varying));
+        let curve = self.curve(&one.curve);
+        format!("{{ body = {body}, nodes = {set}, each = {each}{curve} }}")
     }
 
     fn motion(&mut self, step: &Step, one: &'m RigidMotion) -> String {

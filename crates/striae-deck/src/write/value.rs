@@ -1,6 +1,7 @@
 //! Values as TOML, so that the same bits are read again.
 
 use striae_mesh::Vec3;
+use striae_solve::model::Value;
 
 /// Range, in units in the last place, in which the number that was written is sought around the one
 /// that is computed back.
@@ -9,6 +10,14 @@ const REACH: i64 = 16;
 /// A number.
 pub(crate) fn number(value: f64) -> String {
     format!("{value:?}")
+}
+
+/// A number or a function.
+pub(crate) fn varying(value: &Value) -> String {
+    match value {
+        Value::Number(value) => number(*value),
+        Value::Function(function) => text(function.text()),
+    }
 }
 
 /// A text in quotes.

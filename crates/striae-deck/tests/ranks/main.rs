@@ -72,3 +72,35 @@ fn bar_impact() {
     );
     run(deck!("bar-impact/deck"), &[short]);
 }
+
+#[test]
+fn functions_and_forces_at_nodes() {
+    let deck = r#"
+title = "a shaken block under forces that vary"
+[[material]]
+name = "elastic"
+law = "neo-hookean"
+youngs_modulus = 100
+poissons_ratio = 0.3
+density = 1e-2
+[[body]]
+name = "block"
+material = "elastic"
+mesh = { generator = "block", size = [3, 1, 1], divisions = [9, 3, 3] }
+[[curve]]
+name = "beat"
+points = [[0, 0], [0.1, 1], [0.3, 0]]
+period = 0.3
+time = "run"
+[[step]]
+name = "shake"
+duration = 0.4
+increments = 4
+dynamics = {}
+displacement = [{ body = "block", nodes = "zmin", x = "0.01*sin(5*t)*(1 + y)", y = 0, z = 0 }]
+force = [{ body = "block", nodes = "zmax", total = [0, "0.1*x*t", 0.2], curve = "beat" }]
+pressure = [{ body = "block", facets = "xmax", value = "0.5*z*t" }]
+traction = [{ body = "block", facets = "zmax", vector = [0.1, "0.1*y", 0], direction = "follower" }]
+"#;
+    run(deck, &[]);
+}

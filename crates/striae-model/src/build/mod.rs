@@ -18,7 +18,9 @@ pub use parts::{
     BodyBuilder, RigidBuilder, SectionBuilder, body, composite, plane, rigid_solid, rigid_surface,
     section, tied,
 };
-pub use step::{Component, Components, StepBuilder, equal_increments, step};
+pub use step::{
+    Component, Components, StepBuilder, equal_increments, shared_force, step, usual_curve,
+};
 pub use tie::{TieBuilder, tie};
 
 use striae_solve::model::{Backend, Body, Model, Pair, RigidSurface, Solver, Strategy, Tie};

@@ -4,11 +4,13 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use nalgebra::Vector3;
 use striae_law::friction::Friction;
 use striae_mesh::{NodeId, Vec3};
 use striae_solve::model::{
     Actuation, ActuationKind, BodyId, Curve, Displacement, Freedom, Gravity, Increments, Load,
-    LoadExtent, LoadKind, Mover, Procedure, Release, RigidMotion, Step, Velocity,
+    LoadExtent, LoadKind, Mover, NodalForce, Procedure, Release, RigidMotion, Step, Value,
+    Velocity,
 };
 
 use super::lookup::Names;
@@ -27,19 +29,41 @@ pub fn equal_increments(number: usize) -> Increments {
     }
 }
 
-/// Targets of the components of a displacement; `None` leaves a component unchanged.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Components(pub [Option<f64>; 3]);
+/// Targets of the components of a displacement; `None` leaves a component as it is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Components(pub [Option<Value>; 3]);
 
 impl From<[f64; 3]> for Components {
     fn from(targets: [f64; 3]) -> Self {
-        Self(targets.map(Some))
+        Self(targets.map(|target| Some(target.into())))
     }
 }
 
 impl From<[Option<f64>; 3]> for Components {
     fn from(targets: [Option<f64>; 3]) -> Self {
+        Self(targets.map(|target| target.map(Value::from)))
+    }
+}
+
+impl From<[Option<Value>; 3]> for Components {
+    fn from(targets: [Option<Value>; 3]) -> Self {
         Self(targets)
+    }
+}
+
+impl Components {
+    /// Returns whether a target changes with time.
+    fn move_on(&self) -> bool {
+        self.0.iter().flatten().any(Value::moves)
+    }
+}
+
+/// Curve along which a target is approached where nothing else is said: one that changes with
+/// time is followed from the start.
+pub fn usual_curve(moves: bool) -> Curve {
+    match moves {
+        true => Curve::Constant,
+        false => Curve::Ramp,
     }
 }
 
@@ -63,7 +87,8 @@ pub struct StepBuilder {
     step: Step,
     displacements: Vec<(Place, Components, Curve)>,
     releases: Vec<(Place, Released)>,
-    loads: Vec<(Place, LoadKind, LoadExtent, Curve)>,
+    loads: Vec<(Place, LoadKind<Value>, LoadExtent, Curve)>,
+    forces: Vec<(Place, Spread, Curve)>,
     actuations: Vec<(String, Option<String>, ActuationKind, Curve)>,
     motions: Vec<(String, RigidMotion)>,
     velocities: Vec<(Owner, Velocity)>,
@@ -71,6 +96,19 @@ pub struct StepBuilder {
     last: Last,
 }
 
+/// A force at nodes.
+#[derive(Clone, Debug, PartialEq)]
+enum Spread {
+    /// At each of them.
+    Each(Vector3<Value>),
+    /// At all of them together, in equal parts.
+    Total(Vector3<Value>),
+}
+
+/// The part of a force that each of so many nodes takes.
+pub fn shared_force(total: &Vector3<Value>, nodes: usize) -> Vector3<Value> {
+    total.map(|component| component.times(1.0 / nodes as f64))
+}
 /// Components that a release sets free.
 #[derive(Clone, Copy, Debug)]
 enum Released {
@@ -92,6 +130,7 @@ enum Last {
     Nothing,
     Displacement,
     Load,
+    Force,
     Actuation,
     Motion,
     Velocity,
@@ -111,6 +150,7 @@ pub fn step(name: impl Into<String>) -> StepBuilder {
             displacements: Vec::new(),
             releases: Vec::new(),
             loads: Vec::new(),
+            forces: Vec::new(),
             actuations: Vec::new(),
             rigid_motions: Vec::new(),
             frictions: Vec::new(),
@@ -118,6 +158,7 @@ pub fn step(name: impl Into<String>) -> StepBuilder {
         displacements: Vec::new(),
         releases: Vec::new(),
         loads: Vec::new(),
+        forces: Vec::new(),
         actuations: Vec::new(),
         motions: Vec::new(),
         velocities: Vec::new(),
@@ -158,8 +199,9 @@ impl StepBuilder {
         components: impl Into<Components>,
     ) -> Self {
         let place = (body.into(), nodes.into());
-        self.displacements
-            .push((place, components.into(), Curve::Ramp));
+        let components = components.into();
+        let curve = usual_curve(components.move_on());
+        self.displacements.push((place, components, curve));
         self.last = Last::Displacement;
         self
     }
@@ -195,11 +237,13 @@ impl StepBuilder {
         mut self,
         body: impl Into<String>,
         facets: impl Into<String>,
-        kind: LoadKind,
+        kind: impl Into<LoadKind<Value>>,
         extent: LoadExtent,
     ) -> Self {
         let place = (body.into(), facets.into());
-        self.loads.push((place, kind, extent, Curve::Ramp));
+        let kind = kind.into();
+        let curve = usual_curve(kind.moves());
+        self.loads.push((place, kind, extent, curve));
         self.last = Last::Load;
         self
     }
@@ -209,9 +253,9 @@ impl StepBuilder {
         self,
         body: impl Into<String>,
         facets: impl Into<String>,
-        pressure: f64,
+        pressure: impl Into<Value>,
     ) -> Self {
-        let kind = LoadKind::Pressure(pressure);
+        let kind = LoadKind::Pressure(pressure.into());
         self.load(body, facets, kind, LoadExtent::Whole)
     }
 
@@ -224,6 +268,34 @@ impl StepBuilder {
     ) -> Self {
         let kind = LoadKind::DeadTraction(traction.into());
         self.load(body, facets, kind, LoadExtent::Whole)
+    }
+
+    /// Pulls on a node set with a force that all its nodes take in equal parts.
+    pub fn force(
+        self,
+        body: impl Into<String>,
+        nodes: impl Into<String>,
+        total: impl Into<Vector3<Value>>,
+    ) -> Self {
+        self.with_force((body.into(), nodes.into()), Spread::Total(total.into()))
+    }
+
+    /// Pulls on each node of a set with a force.
+    pub fn force_at_each(
+        self,
+        body: impl Into<String>,
+        nodes: impl Into<String>,
+        force: impl Into<Vector3<Value>>,
+    ) -> Self {
+        self.with_force((body.into(), nodes.into()), Spread::Each(force.into()))
+    }
+
+    fn with_force(mut self, place: Place, spread: Spread) -> Self {
+        let (Spread::Each(force) | Spread::Total(force)) = &spread;
+        let curve = usual_curve(force.iter().any(Value::moves));
+        self.forces.push((place, spread, curve));
+        self.last = Last::Force;
+        self
     }
 
     /// Takes a strain without stress, or a tension, of all of a body to a target.
@@ -327,12 +399,14 @@ impl StepBuilder {
         self
     }
 
-    /// Takes what was stated last to its target along a curve instead of a ramp.
+    /// Takes what was stated last to its target along a curve. Without it targets are approached
+    /// along a ramp, and followed from the start where they change with time.
     pub fn along(mut self, curve: Curve) -> Self {
         let of_last = match self.last {
             Last::Nothing | Last::Velocity => None,
             Last::Displacement => self.displacements.last_mut().map(|(_, _, curve)| curve),
             Last::Load => self.loads.last_mut().map(|(_, _, _, curve)| curve),
+            Last::Force => self.forces.last_mut().map(|(_, _, curve)| curve),
             Last::Actuation => self.actuations.last_mut().map(|(_, _, _, curve)| curve),
             Last::Motion => self.motions.last_mut().map(|(_, motion)| &mut motion.curve),
             Last::Gravity => self.step.gravity.as_mut().map(|gravity| &mut gravity.curve),
@@ -360,7 +434,7 @@ impl StepBuilder {
                     set: set.clone(),
                     body,
                     nodes,
-                    components: components.0,
+                    components: components.0.clone(),
                     curve: curve.clone(),
                 })
             });
@@ -404,8 +478,22 @@ impl StepBuilder {
                 set: set.clone(),
                 body,
                 faces,
-                kind: *kind,
+                kind: kind.clone(),
                 extent: *extent,
+                curve: curve.clone(),
+            })
+        });
+        resolved.step.forces = resolved.all("forces", &self.forces, |index, of| {
+            let ((body, set), spread, curve) = of;
+            let (body, nodes) = names.nodes(body, set, &at("forces", index), faults)?;
+            Some(NodalForce {
+                set: set.clone(),
+                body,
+                force: match spread {
+                    Spread::Each(force) => force.clone(),
+                    Spread::Total(force) => shared_force(force, nodes.len()),
+                },
+                nodes,
                 curve: curve.clone(),
             })
         });

@@ -3,7 +3,7 @@
 use std::mem::discriminant;
 
 use striae_mesh::Vec3;
-use striae_solve::model::{Actuation, ActuationKind, Curve, Step};
+use striae_solve::model::{Actuation, ActuationKind, Moment, Step};
 
 use super::{Draft, List};
 use crate::{fault::FaultKind, path::Path};
@@ -27,7 +27,7 @@ struct OfSection {
 /// Notes what is wrong with the actuations of a step, and where they lead.
 pub(super) fn check(
     draft: &Draft<'_>,
-    step: &Step,
+    (step, start): (&Step, Moment),
     path: &Path,
     reached: &mut Reached,
     faults: &mut List,
@@ -39,7 +39,8 @@ pub(super) fn check(
     for (index, stated) in step.actuations.iter().enumerate() {
         let path = path.clone().field("actuations").index(index);
         let earlier = step.actuations[..index].iter();
-        let cause = unsound(draft, stated, earlier).or_else(|| follow(draft, stated, reached));
+        let cause = unsound(draft, stated, start, earlier)
+            .or_else(|| follow(draft, stated, start, reached));
         if let Some(cause) = cause {
             let kind = FaultKind::Actuation {
                 step: step.name.clone(),
@@ -67,6 +68,7 @@ fn name(draft: &Draft<'_>, stated: &Actuation) -> String {
 fn unsound<'a>(
     draft: &Draft<'_>,
     stated: &Actuation,
+    start: Moment,
     mut earlier: impl Iterator<Item = &'a Actuation>,
 ) -> Option<String> {
     let overlaps = |other: &Actuation| {
@@ -77,7 +79,9 @@ fn unsound<'a>(
     }) {
         return Some("this kind of actuation is stated twice; remove one of them".to_owned());
     }
-    let factor = range(&stated.curve)
+    let factor = stated
+        .curve
+        .range(start)
         .iter()
         .fold(1.0, |most: f64, c| most.max(c.abs()));
     let is_within = |number: &f64, most: f64| (number * factor).abs() <= most;
@@ -141,7 +145,12 @@ fn without_fibres(draft: &Draft<'_>, stated: &Actuation, kind: &ActuationKind) -
 }
 
 /// Takes an actuation into account; why nothing would be left of some length.
-fn follow(draft: &Draft<'_>, stated: &Actuation, reached: &mut Reached) -> Option<String> {
+fn follow(
+    draft: &Draft<'_>,
+    stated: &Actuation,
+    start: Moment,
+    reached: &mut Reached,
+) -> Option<String> {
     let body = stated.body.0;
     let sections = match stated.section {
         Some(section) => section..section + 1,
@@ -154,15 +163,16 @@ fn follow(draft: &Draft<'_>, stated: &Actuation, reached: &mut Reached) -> Optio
             (of.body, of.section) == (body, section) && of.kind.is_like(&stated.kind)
         });
         let from = known.map(|at| all[at].kind);
+        let from = stated.curve.origin(from, None);
         let at = |c: f64| stated.kind.between(from.as_ref(), c);
-        let ways = range(&stated.curve).into_iter();
+        let ways = stated.curve.range(start).into_iter();
         let least = ways
             .map(|c| at(c).least_strain())
             .fold(f64::INFINITY, f64::min);
         let found = OfSection {
             body,
             section,
-            kind: at(stated.curve.at(1.0)),
+            kind: at(stated.curve.at(start.later(1.0))),
             least,
         };
         match known {
@@ -180,15 +190,4 @@ fn follow(draft: &Draft<'_>, stated: &Actuation, reached: &mut Reached) -> Optio
         "its lengths at rest would change by the factor {:.4} and vanish; strains, all kinds together and with the values of their curves, must stay above -1",
         1.0 + worst
     ))
-}
-
-/// The least and the largest value of a curve.
-fn range(curve: &Curve) -> [f64; 2] {
-    match curve {
-        Curve::Ramp | Curve::Smooth => [0.0, 1.0],
-        Curve::Constant => [1.0, 1.0],
-        Curve::Table(points) => points.iter().fold([0.0, 0.0], |[least, most], point| {
-            [f64::min(least, point.1), f64::max(most, point.1)]
-        }),
-    }
 }

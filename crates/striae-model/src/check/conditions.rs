@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use striae_mesh::NodeId;
-use striae_solve::model::{BodyId, Curve, Displacement, Release, Step};
+use striae_solve::model::{BodyId, Curve, Displacement, Release, Step, Value};
 
 use super::{Draft, DraftStep, Known, List};
 use crate::{fault::FaultKind, path::Path};
@@ -33,7 +33,7 @@ impl History {
 /// Value that a step has stated for a component so far.
 struct Statement<'s> {
     set: &'s str,
-    target: f64,
+    target: &'s Value,
     curve: &'s Curve,
 }
 
@@ -103,7 +103,7 @@ pub(super) fn displacements(
     let mut stated = BTreeMap::new();
     for (index, condition) in step.displacements.iter().enumerate() {
         let path = path.clone().field("displacements").index(index);
-        if condition.components == [None; 3] {
+        if condition.components.iter().all(Option::is_none) {
             let kind = FaultKind::NoComponent {
                 body: draft.bodies[condition.body.0].name.into(),
                 set: condition.set.clone(),
@@ -131,7 +131,7 @@ fn state<'s>(
     let mut contradiction = None;
     let (body, set, curve) = (condition.body, &condition.set, &condition.curve);
     for (component, target) in condition.components.iter().enumerate() {
-        let Some(target) = *target else { continue };
+        let Some(target) = target else { continue };
         for &node in &condition.nodes {
             let freedom = (body, node, component);
             let statement = || Statement { set, target, curve };
@@ -154,13 +154,13 @@ fn state<'s>(
 }
 
 /// The target, and the curve where that is what differs.
-fn along(target: f64, curve: &Curve, other: &Curve) -> String {
+fn along(target: &Value, curve: &Curve, other: &Curve) -> String {
     let name = match curve {
         _ if curve == other => return target.to_string(),
         Curve::Ramp => "`ramp`",
         Curve::Constant => "`constant`",
         Curve::Smooth => "`smooth`",
-        Curve::Table(_) => "a curve",
+        Curve::Table(_) | Curve::History(_) => "a curve",
     };
     format!("{target} along {name}")
 }

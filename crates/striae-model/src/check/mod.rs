@@ -8,6 +8,7 @@ mod actuations;
 mod conditions;
 mod extents;
 mod facets;
+mod functions;
 mod hold;
 mod inertia;
 mod numbers;

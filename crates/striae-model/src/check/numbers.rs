@@ -3,11 +3,13 @@
 use striae_law::bulk::{LameConstants, Material};
 use striae_mesh::Vec3;
 use striae_solve::model::{
-    ClosedGaps, Curve, Initial, Model, Pair, Procedure, RigidInertia, RigidShape, Step,
+    Clock, ClosedGaps, Course, Curve, History, Initial, Model, Moment, Pair, Procedure,
+    RigidInertia, RigidShape, Step,
 };
+use striae_solve::plan::starts;
 use striae_surface::texture::{Lines, Paint};
 
-use super::List;
+use super::{List, functions};
 use crate::{
     fault::{Fault, FaultKind},
     path::Path,
@@ -23,11 +25,15 @@ pub(super) fn faults(model: &Model) -> Vec<Fault> {
     let mut faults = List::default();
     bodies(model, &mut faults);
     rigid_surfaces(model, &mut faults);
+    let first = Moment::start(model.steps.first().map_or(1.0, |step| step.duration));
     for (index, pair) in model.pairs.iter().enumerate() {
-        of_pair(pair, &Path::part("pairs", index), &mut faults);
+        of_pair(pair, first, &Path::part("pairs", index), &mut faults);
     }
-    for (index, step) in model.steps.iter().enumerate() {
-        of_step(step, &Path::part("steps", index), &mut faults);
+    let starts = starts(model).into_iter();
+    for (index, (step, start)) in model.steps.iter().zip(starts).enumerate() {
+        let path = Path::part("steps", index);
+        of_step(step, start, &path, &mut faults);
+        functions::of_step(model, step, start, &path, &mut faults);
     }
     let path = Path::of("solver").field("tolerance");
     let tolerance = model.solver.tolerance;
@@ -138,7 +144,7 @@ fn is_possible(inertia: &RigidInertia) -> bool {
     positive && 2.0 * largest <= moments.iter().sum::<f64>() * (1.0 + 1e-12)
 }
 
-fn of_pair(pair: &Pair, path: &Path, faults: &mut List) {
+fn of_pair(pair: &Pair, first: Moment, path: &Path, faults: &mut List) {
     let name = &pair.name;
     if let Some(distance) = pair.search_distance {
         let what = format!("the search distance of pair `{name}`");
@@ -161,7 +167,7 @@ fn of_pair(pair: &Pair, path: &Path, faults: &mut List) {
         let path = path.clone().field("interference");
         let what = format!("the interference of pair `{name}`");
         faults.range(path.clone(), &what, interference.value, FINITE);
-        curve(&interference.curve, path, faults);
+        curve(&interference.curve, first, path, faults);
     }
     for (side, paint) in pair.textures.iter().enumerate() {
         let path = || path.clone().field("textures").index(side);
@@ -184,7 +190,7 @@ fn of_pair(pair: &Pair, path: &Path, faults: &mut List) {
     }
 }
 
-fn of_step(step: &Step, path: &Path, faults: &mut List) {
+fn of_step(step: &Step, start: Moment, path: &Path, faults: &mut List) {
     let name = &step.name;
     let what = format!("the duration of step `{name}`");
     faults.range(
@@ -206,47 +212,109 @@ fn of_step(step: &Step, path: &Path, faults: &mut List) {
         };
         faults.push(path.clone().field("procedure"), kind);
     }
-    let displacements = step.displacements.iter().map(|of| &of.curve);
-    curves("displacements", displacements, path, faults);
-    curves("loads", step.loads.iter().map(|of| &of.curve), path, faults);
-    let actuations = step.actuations.iter().map(|of| &of.curve);
-    curves("actuations", actuations, path, faults);
-    let motions = step.rigid_motions.iter().map(|of| &of.curve);
-    curves("rigid_motions", motions, path, faults);
+    let mut displacements = step.displacements.iter().map(|of| &of.curve);
+    let mut curves = |list, all: &mut dyn Iterator<Item = &Curve>| {
+        for (index, of) in all.enumerate() {
+            let path = path.clone().field(list).index(index);
+            curve(of, start, path, faults);
+        }
+    };
+    curves("displacements", &mut displacements);
+    curves("loads", &mut step.loads.iter().map(|of| &of.curve));
+    curves("forces", &mut step.forces.iter().map(|of| &of.curve));
+    let mut actuations = step.actuations.iter().map(|of| &of.curve);
+    curves("actuations", &mut actuations);
+    let mut motions = step.rigid_motions.iter().map(|of| &of.curve);
+    curves("rigid_motions", &mut motions);
     if let Some(gravity) = &step.gravity {
-        curve(&gravity.curve, path.clone().field("gravity"), faults);
+        curve(&gravity.curve, start, path.clone().field("gravity"), faults);
     }
 }
 
-fn curves<'c>(
-    list: &'static str,
-    all: impl Iterator<Item = &'c Curve>,
-    path: &Path,
-    faults: &mut List,
-) {
-    for (index, of) in all.enumerate() {
-        curve(of, path.clone().field(list).index(index), faults);
+fn curve(curve: &Curve, start: Moment, path: Path, faults: &mut List) {
+    let path = path.field("curve");
+    if let Some(kind) = misshapen(&path.to_string(), curve) {
+        faults.push(path, kind);
+        return;
     }
-}
-
-fn curve(curve: &Curve, path: Path, faults: &mut List) {
-    let Curve::Table(points) = curve else { return };
-    if let Some(found) = misshapen(points) {
-        let path = path.field("curve");
-        let curve = path.to_string();
-        faults.push(path, FaultKind::BadCurve { curve, found });
-    }
-}
-
-/// Reason why points do not make a curve.
-pub fn misshapen(points: &[(f64, f64)]) -> Option<String> {
-    match points[..] {
-        [] | [_] => Some(format!("but there are only {}", points.len())),
-        [(first, _), ..] if first != 0.0 => Some(format!("but start at {first}")),
-        [.., (last, _)] if last != 1.0 => Some(format!("but end at {last}")),
-        _ => {
-            let turns = points.windows(2).find(|pair| pair[1].0 <= pair[0].0);
-            turns.map(|pair| format!("but {} is followed by {}", pair[0].0, pair[1].0))
+    if let Curve::History(History {
+        course: Course::Function(function),
+        ..
+    }) = curve
+    {
+        let lost = functions::moments(start).find(|moment| !curve.at(*moment).is_finite());
+        if let Some(moment) = lost {
+            let (function, t) = (function.text().to_owned(), moment.time);
+            faults.push(path, FaultKind::UndefinedCurve { function, t });
         }
     }
+}
+
+/// The fault of a curve of that name that is none.
+pub fn misshapen(name: &str, curve: &Curve) -> Option<FaultKind> {
+    let name = name.to_owned();
+    if let Curve::History(History {
+        course: Course::Function(function),
+        ..
+    }) = curve
+    {
+        let function = (!function.is_uniform()).then(|| function.text().to_owned());
+        return function.map(|function| FaultKind::CurveOfPosition {
+            curve: name,
+            function,
+        });
+    }
+    let found = shape(curve)?;
+    Some(FaultKind::BadCurve { curve: name, found })
+}
+
+/// Manner in which the points of a curve have to rise, and the one that does not.
+fn shape(curve: &Curve) -> Option<String> {
+    let (points, within, ends) = match curve {
+        Curve::Ramp | Curve::Constant | Curve::Smooth => return None,
+        Curve::Table(points) => (points, "from 0 to 1".to_owned(), Some([0.0, 1.0])),
+        Curve::History(History { clock, course }) => match (clock, course) {
+            (_, Course::Function(_)) => return None,
+            (Clock::Step, Course::Table(points)) => {
+                (points, "from 0 to 1".to_owned(), Some([0.0, 1.0]))
+            }
+            (Clock::Run, Course::Table(points)) => (points, String::new(), None),
+            (_, Course::Periodic { points, period }) => {
+                if !(*period > 0.0 && period.is_finite()) {
+                    return Some(format!(
+                        "within a period that is a positive number, but it is {period}"
+                    ));
+                }
+                let within = format!("within the period from 0 to {period}");
+                let outside = points
+                    .iter()
+                    .find(|point| !(0.0..=*period).contains(&point.0));
+                if let Some(point) = outside {
+                    return Some(format!("{within}, but one is at {}", point.0));
+                }
+                (points, within, None)
+            }
+        },
+    };
+    let wrong = match (&points[..], ends) {
+        ([] | [_], _) => Some(format!("there are only {}", points.len())),
+        ([(first, _), ..], Some([start, _])) if *first != start => {
+            Some(format!("start at {first}"))
+        }
+        ([.., (last, _)], Some([_, end])) if *last != end => Some(format!("end at {last}")),
+        _ => {
+            let rises = |pair: &&[(f64, f64)]| pair[1].0 > pair[0].0;
+            let turns = points.windows(2).find(|pair| !rises(pair));
+            let lost = points
+                .iter()
+                .find(|(s, c)| !s.is_finite() || !c.is_finite());
+            match (turns, lost) {
+                (Some(pair), _) => Some(format!("{} is followed by {}", pair[0].0, pair[1].0)),
+                (None, Some((s, c))) => Some(format!("({s}, {c}) is no pair of finite numbers")),
+                (None, None) => None,
+            }
+        }
+    };
+    let comma = if within.is_empty() { "" } else { ", " };
+    wrong.map(|wrong| format!("{within}{comma}but {wrong}"))
 }

@@ -13,9 +13,10 @@
 
 use std::collections::BTreeSet;
 
-use striae_mesh::{Face, Mesh, Vec3};
+use striae_mesh::{Face, Mesh, NodeId, Vec3};
 use striae_solve::model::{
-    BodyId, ContactSurface, Freedom, LoadExtent, LoadKind, Pair, Procedure, RigidId, Step,
+    BodyId, ContactSurface, Freedom, LoadExtent, LoadKind, NodalForce, Pair, Procedure, RigidId,
+    Step,
 };
 
 use super::{Draft, List, hold};
@@ -99,11 +100,13 @@ impl Contact<'_> {
 
 fn of_body(draft: &Draft<'_>, step: &Step, body: BodyId, faults: &mut List) {
     let of = &draft.bodies[body.0];
-    // Loads that turn, or act on what is exposed, have no force that is known before a run.
+    // Loads that turn, vary, or act on what is exposed, have no force that is known before a run.
     let uncertain = step.loads.iter().any(|load| {
         let turns = matches!(load.kind, LoadKind::FollowerTraction(_));
-        load.body == body && (turns || load.extent != LoadExtent::Whole)
+        let varies = load.kind.numbers().is_none();
+        load.body == body && (turns || varies || load.extent != LoadExtent::Whole)
     });
+    let uncertain = uncertain || step.forces.iter().any(|of| of.body == body && varies(of));
     let Some(mesh) = of
         .mesh
         .filter(|_| !uncertain && !hold::is_tied(draft, body))
@@ -123,7 +126,7 @@ fn of_body(draft: &Draft<'_>, step: &Step, body: BodyId, faults: &mut List) {
             own.any(|(node, _)| piece.binary_search(node).is_ok())
         };
         let part = piece.len() as f64 / mesh.positions.len() as f64;
-        let force = force(draft, step, (body, mesh), &own, part);
+        let force = force(draft, step, (body, mesh), piece, (&own, part));
         let mover = match pieces.len() {
             1 => format!("body `{}`", of.name),
             count => format!(
@@ -163,21 +166,37 @@ fn contact_of<'a>(
     }
 }
 
+fn varies(force: &NodalForce) -> bool {
+    force
+        .force
+        .iter()
+        .any(|component| component.number().is_none())
+}
+
 /// Force of loads and gravity on a part of a body at the end of the step.
 fn force(
     draft: &Draft<'_>,
     step: &Step,
     (body, mesh): (BodyId, &Mesh),
-    own: &dyn Fn(&Face) -> bool,
-    part: f64,
+    piece: &[NodeId],
+    (own, part): (&dyn Fn(&Face) -> bool, f64),
 ) -> Vec3 {
     let mut force = Vec3::zeros();
+    for of in step.forces.iter().filter(|of| of.body == body) {
+        let nodes = of
+            .nodes
+            .iter()
+            .filter(|node| piece.binary_search(node).is_ok());
+        let each = of.force.map(|component| component.number().unwrap_or(0.0));
+        force += each * nodes.count() as f64;
+    }
     for load in step.loads.iter().filter(|load| load.body == body) {
         for face in load.faces.iter().filter(|face| own(face)) {
             let area = mesh.area_vector(*face);
-            force += match load.kind {
-                LoadKind::DeadTraction(t) | LoadKind::FollowerTraction(t) => t * area.norm(),
-                LoadKind::Pressure(pressure) => area * -pressure,
+            force += match load.kind.numbers() {
+                Some(LoadKind::DeadTraction(t) | LoadKind::FollowerTraction(t)) => t * area.norm(),
+                Some(LoadKind::Pressure(pressure)) => area * -pressure,
+                None => Vec3::zeros(),
             };
         }
     }

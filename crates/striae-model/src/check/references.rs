@@ -78,6 +78,9 @@ impl Check<'_> {
         for (index, load) in step.loads.iter().enumerate() {
             self.faces(load.body, &load.faces, at("loads", index));
         }
+        for (index, force) in step.forces.iter().enumerate() {
+            self.nodes(force.body, &force.nodes, at("forces", index));
+        }
         for (index, actuation) in step.actuations.iter().enumerate() {
             let path = at("actuations", index);
             if self.body(actuation.body, &path).is_some() {

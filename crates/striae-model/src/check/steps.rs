@@ -1,8 +1,6 @@
 //! Checks of what each step states: increments, loads, velocities, motions and friction.
 
-use std::mem::discriminant;
-
-use striae_solve::model::{Load, LoadKind, Mover, Procedure, Step};
+use striae_solve::model::{Load, LoadKind, Moment, Mover, Procedure, Step};
 
 use super::{Draft, Known, List, Positions, actuations, conditions, pairs};
 use crate::{fault::FaultKind, path::Path};
@@ -11,6 +9,7 @@ use crate::{fault::FaultKind, path::Path};
 pub(super) fn check(draft: &Draft<'_>, impossible: &Positions, faults: &mut List) -> Positions {
     let mut partial = Positions::new();
     let mut history = conditions::History::new(draft.known);
+    let mut time = 0.0;
     let mut reached = actuations::Reached::default();
     for (index, of) in draft.steps.iter().enumerate() {
         let (step, path) = (of.step, Path::part("steps", index));
@@ -18,7 +17,13 @@ pub(super) fn check(draft: &Draft<'_>, impossible: &Positions, faults: &mut List
         conditions::releases(draft, step, &path, &mut history, faults);
         let known = conditions::displacements(draft, of, &path, &mut history, faults);
         loads(draft, step, &path, faults);
-        actuations::check(draft, step, &path, &mut reached, faults);
+        forces(draft, step, &path, faults);
+        let start = Moment {
+            time,
+            ..Moment::start(step.duration)
+        };
+        time = start.later(1.0).time;
+        actuations::check(draft, (step, start), &path, &mut reached, faults);
         velocities(draft, step, &path, faults);
         rigid_motions(draft, step, &path, faults);
         frictions(draft, step, impossible, &path, faults);
@@ -52,9 +57,7 @@ fn twice(step: &Step, what: String) -> FaultKind {
 fn loads(draft: &Draft<'_>, step: &Step, path: &Path, faults: &mut List) {
     for (index, load) in step.loads.iter().enumerate() {
         let same = |other: &&Load| {
-            other.body == load.body
-                && other.set == load.set
-                && discriminant(&other.kind) == discriminant(&load.kind)
+            other.body == load.body && other.set == load.set && other.kind.is_like(&load.kind)
         };
         if step.loads[..index].iter().any(|other| same(&other)) {
             let kind = match load.kind {
@@ -65,6 +68,17 @@ fn loads(draft: &Draft<'_>, step: &Step, path: &Path, faults: &mut List) {
             let (set, body) = (&load.set, draft.bodies[load.body.0].name);
             let what = format!("the {kind} on `{set}` of body `{body}`");
             faults.push(path.clone().field("loads").index(index), twice(step, what));
+        }
+    }
+}
+
+fn forces(draft: &Draft<'_>, step: &Step, path: &Path, faults: &mut List) {
+    for (index, force) in step.forces.iter().enumerate() {
+        let mut earlier = step.forces[..index].iter();
+        if earlier.any(|other| other.body == force.body && other.set == force.set) {
+            let (set, body) = (&force.set, draft.bodies[force.body.0].name);
+            let what = format!("the force at `{set}` of body `{body}`");
+            faults.push(path.clone().field("forces").index(index), twice(step, what));
         }
     }
 }

@@ -20,6 +20,7 @@ docstrings say what each is. Angles are in degrees. Nodes count from 0.
 """
 
 from ._body import Body, BodySet
+from ._course import Course
 from ._errors import (
     Fault,
     ModelError,
@@ -98,6 +99,7 @@ __all__ = [
     "Circumferential",
     "Condition",
     "Coulomb",
+    "Course",
     "Dynamics",
     "ElasticPlastic",
     "Energies",

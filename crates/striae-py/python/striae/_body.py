@@ -8,7 +8,7 @@ from typing import Any, Literal, Optional, Union
 
 from . import _check as check
 from . import _striae as native
-from ._check import Curve, Members, Motion, Vector
+from ._check import Curve, Members, Motion, Varying, VaryingVector, Vector
 from ._errors import refuse
 from ._material import Material
 from ._mesh import Mesh, listed
@@ -44,28 +44,31 @@ class BodySet:
         x: Optional[Motion] = None,
         y: Optional[Motion] = None,
         z: Optional[Motion] = None,
-        curve: Curve = "ramp",
+        curve: Optional[Curve] = None,
     ) -> Condition:
         """Moves the nodes to a displacement from their positions at rest.
 
-        x, y, z: targets (length), or functions from the fraction of the step, 0 to 1, to the
-            displacement (length), which begin where the nodes are and are called at 1001 fractions
-            when the condition is made; components that are left out keep their state.
-        curve: how the targets are approached; it has no effect on functions.
+        x, y, z: targets (length): numbers, or functions of ``x``, ``y``, ``z``, the positions at
+            rest, and ``t``, the time of the run, as texts such as ``"0.1*x*sin(2*pi*t)"``, with
+            angles in radians. Or Python's functions from the fraction of the step, 0 to 1, to the
+            displacement (length), which begin where the nodes are and are called at 1001
+            fractions when the condition is made. A component that is left out stays as it is.
+        curve: how the targets are approached: ``ramp`` where nothing is said, but texts with
+            ``t`` are followed. It has no effect on Python's functions.
         """
         given = [(axis, value) for axis, value in enumerate((x, y, z)) if value is not None]
         if not given:
             raise refuse(str(self), "a displacement needs at least one of x, y and z")
-        targets: list[Optional[float]] = [None, None, None]
+        targets: list[Optional[Varying]] = [None, None, None]
         motions = []
         for axis, value in given:
             if callable(value):
                 motions.append((axis, *check.motion(value, "xyz"[axis])))
             else:
-                targets[axis] = check.number(value, "xyz"[axis])
-        along = check.curve(curve, "curve")
-        if along != "ramp" and all(target is None for target in targets):
-            raise refuse("curve", "components given as functions take no curve")
+                targets[axis] = check.varying(value, "xyz"[axis])
+        along = check.curve_of(curve, "curve", *targets)
+        if curve not in (None, "ramp") and all(target is None for target in targets):
+            raise refuse("curve", "components that are functions have no curve besides")
         body, name = self.body.name, self.name
 
         def apply(step: native.Step) -> None:
@@ -91,15 +94,18 @@ class BodySet:
         return Condition(f"release of {self}", lambda step: step.release(body, name, chosen))
 
     def pressure(
-        self, value: float, *, extent: Extent = "whole", curve: Curve = "ramp"
+        self, value: Varying, *, extent: Extent = "whole", curve: Optional[Curve] = None
     ) -> Condition:
         """Presses on the facets, against their current normals.
 
-        value: target, positive inwards (force per current area).
-        extent: ``whole``, or ``exposed``: only the part that no other contact surface covers.
-        curve: how the target is approached.
+        value: target, positive inwards (force per current area), or a function of position and
+            time as a text, as of :meth:`displace`.
+        extent: ``whole``, or ``exposed``: only what no other contact surface covers.
+        curve: how the target is approached: ``ramp`` where nothing is said, but texts with ``t``
+            are followed.
         """
-        target, along = check.number(value, "value"), check.curve(curve, "curve")
+        target = check.varying(value, "value")
+        along = check.curve_of(curve, "curve", target)
         exposed = check.word(extent, ("whole", "exposed"), "extent") == "exposed"
         body, name = self.body.name, self.name
         return Condition(
@@ -109,26 +115,54 @@ class BodySet:
 
     def traction(
         self,
-        value: Vector,
+        value: VaryingVector,
         *,
         direction: Literal["dead", "follower"] = "dead",
         extent: Extent = "whole",
-        curve: Curve = "ramp",
+        curve: Optional[Curve] = None,
     ) -> Condition:
         """Pulls on the facets.
 
-        value: target (force per reference area, per current area of a follower).
-        direction: ``dead`` loads keep their direction, ``follower`` loads rotate with the facet.
-        extent: ``whole``, or ``exposed``: only the part that no other contact surface covers.
-        curve: how the target is approached.
+        value: target (force per reference area, per current area of a follower); components may
+            be functions of position and time as texts, as of :meth:`displace`.
+        direction: ``dead``: it stays; ``follower``: it turns with the facet.
+        extent: ``whole``, or ``exposed``: only what no other contact surface covers.
+        curve: how the target is approached: ``ramp`` where nothing is said, but texts with ``t``
+            are followed.
         """
-        target, along = check.vector(value, "value"), check.curve(curve, "curve")
+        target = check.varying_vector(value, "value")
+        along = check.curve_of(curve, "curve", *target)
         follower = check.word(direction, ("dead", "follower"), "direction") == "follower"
         exposed = check.word(extent, ("whole", "exposed"), "extent") == "exposed"
         body, name = self.body.name, self.name
         return Condition(
             f"traction on {self}",
             lambda step: step.traction(body, name, target, follower, exposed, along),
+        )
+
+    def force(
+        self,
+        total: Optional[VaryingVector] = None,
+        *,
+        each: Optional[VaryingVector] = None,
+        curve: Optional[Curve] = None,
+    ) -> Condition:
+        """Pulls on the nodes with a force of fixed direction.
+
+        total: target (force), taken by all nodes in equal parts; components may be functions of
+            position and time as texts, as of :meth:`displace`.
+        each: target at each node (force), in place of ``total``.
+        curve: how the target is approached: ``ramp`` where nothing is said, but texts with ``t``
+            are followed.
+        """
+        if (total is None) == (each is None):
+            raise refuse(str(self), "a force is stated as either total or each")
+        path = "total" if each is None else "each"
+        target = check.varying_vector(total if each is None else each, path)
+        along = check.curve_of(curve, "curve", *target)
+        body, name, at_each = self.body.name, self.name, each is not None
+        return Condition(
+            f"force at {self}", lambda step: step.force(body, name, target, at_each, along)
         )
 
     def __repr__(self) -> str:
@@ -363,7 +397,7 @@ class Body:
         components: list[float],
         axes: Optional[Sequence[Vector]],
         section: Optional[str],
-        along: Union[str, list[tuple[float, float]]],
+        along: check.Along,
     ) -> Condition:
         name, vectors = self.name, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
         if axes is not None:

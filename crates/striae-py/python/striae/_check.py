@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any, Literal, TypeAlias, TypeVar, Union
+from typing import TYPE_CHECKING, Any, Literal, Optional, TypeAlias, TypeVar, Union
 
 import numpy as np
 import numpy.typing as npt
 
+from . import _striae as native
 from ._errors import refuse
+
+if TYPE_CHECKING:
+    from ._course import Course
 
 Floats: TypeAlias = npt.NDArray[np.float64]
 Ints: TypeAlias = npt.NDArray[np.int64]
@@ -17,8 +21,16 @@ Curve: TypeAlias = Union[
     Literal["ramp", "constant", "smooth"],
     Sequence[tuple[float, float]],
     Callable[[float], float],
+    "Course",
 ]
-Motion: TypeAlias = Union[float, Callable[[float], float]]
+Motion: TypeAlias = Union[float, str, Callable[[float], float]]
+Varying: TypeAlias = Union[float, str]
+VaryingVector: TypeAlias = Union[Vector, Sequence[Varying]]
+Along: TypeAlias = Union[
+    str,
+    list[tuple[float, float]],
+    tuple[str, Optional[float], list[tuple[float, float]], str],
+]
 Members: TypeAlias = Union[npt.ArrayLike, Callable[[Floats], npt.ArrayLike]]
 
 CURVES = ("ramp", "constant", "smooth")
@@ -179,18 +191,52 @@ def motion(
     return [start, change], shares
 
 
-def curve(value: Any, path: str) -> str | list[tuple[float, float]]:
-    """The name of a curve, or its points; functions are sampled here, once."""
+def curve(value: Any, path: str) -> Along:
+    """The name of a curve, or what it is made of; points of a function are taken once, here."""
+    from ._course import Course
+
+    if isinstance(value, Course):
+        return value._native()
     if isinstance(value, str):
         return word(value, CURVES, path)
     if callable(value):
         return sampled(value, path)
+    return points(
+        value, path, "the name of a curve or points (fraction of the step, share of the change)"
+    )
+
+
+def curve_of(value: Any, path: str, *targets: Any) -> Along:
+    """The curve along which targets are approached; those that change with time are followed."""
+    if value is not None:
+        return curve(value, path)
+    moves = any(isinstance(target, str) and native.moves(target) for target in targets)
+    return "constant" if moves else "ramp"
+
+
+def points(value: Any, path: str, needed: str) -> list[tuple[float, float]]:
+    """Points of a curve."""
     found = array(value, path)
     if found.ndim != 2 or found.shape[1] != 2:
-        raise refuse(
-            path,
-            "the name of a curve or points (fraction of the step, share of the change) are"
-            f" needed, but it has shape {found.shape}",
-        )
-    points = finite(found, path)
-    return [(float(s), float(c)) for s, c in points]
+        raise refuse(path, f"{needed} are needed, but it has shape {found.shape}")
+    return [(float(s), float(c)) for s, c in finite(found, path)]
+
+
+def function(value: str, path: str) -> str:
+    """A text that is a function of ``x``, ``y``, ``z`` and ``t``."""
+    native.check_function(value, path)
+    return value
+
+
+def varying(value: Any, path: str) -> Varying:
+    """A number, or a function of position and time."""
+    return function(value, path) if isinstance(value, str) else number(value, path)
+
+
+def varying_vector(value: Any, path: str) -> list[Varying]:
+    """Three numbers, or functions of position and time."""
+    if not any(isinstance(component, str) for component in value):
+        return list(vector(value, path))
+    if len(value) != 3:
+        raise refuse(path, f"three components are needed, but there are {len(value)}")
+    return [varying(component, path) for component in value]

@@ -1,10 +1,11 @@
 """Steps of the loading history and their conditions.
 
-A condition holds from the step that states it until a later step restates or releases it. Its
-quantity changes from the present value to the target along a curve: ``ramp``, ``constant`` (at
-once), ``smooth``, points (fraction of the step, share of the change) from 0 to 1 with straight
-lines between them, or a function of the fraction, which is called at 1001 fractions when the
-condition is made.
+A condition holds from the step that states it until a later step states the same again or
+releases it. It takes its quantity from the present value to the target along a curve:
+``ramp``, ``constant`` (at once), ``smooth``, points (fraction of the step, share of the
+change) from 0 to 1 with straight lines between them, a function of the fraction, which is
+called at 1001 fractions when the condition is made, or a :class:`Course`, which may be over the
+time of the run.
 """
 
 from __future__ import annotations

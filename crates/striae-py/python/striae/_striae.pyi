@@ -10,10 +10,18 @@ _Floats = npt.NDArray[np.float64]
 _Ints = npt.NDArray[np.int64]
 _Intervals = Optional[tuple[str, list[float]]]
 _Turn = Optional[tuple[list[float], float, Optional[list[float]]]]
-_Along = Union[str, list[tuple[float, float]]]
+_Varying = Union[float, str]
+_Along = Union[
+    str,
+    list[tuple[float, float]],
+    tuple[str, Optional[float], list[tuple[float, float]], str],
+]
 _Path = Union[str, PathLike[str]]
 Watching = tuple[Optional[Callable[[Results], object]], int, Optional[int]]
 Recording = Optional[tuple[_Path, Optional[str], Optional[int]]]
+
+def check_function(text: str, path: str) -> None: ...
+def moves(text: str) -> bool: ...
 
 class Mesh:
     def __new__(cls, points: _Floats, cells: list[tuple[str, _Ints]]) -> Mesh: ...
@@ -261,7 +269,7 @@ class Step:
     def sizes(self, initial: float, smallest: float, largest: float) -> None: ...
     def dynamic(self, spectral_radius: float) -> None: ...
     def displace(
-        self, body: str, nodes: str, components: list[Optional[float]], along: _Along
+        self, body: str, nodes: str, components: list[Optional[_Varying]], along: _Along
     ) -> None: ...
     def lead(
         self,
@@ -273,16 +281,19 @@ class Step:
     ) -> None: ...
     def release(self, body: str, nodes: str, components: list[int]) -> None: ...
     def pressure(
-        self, body: str, facets: str, pressure: float, exposed: bool, along: _Along
+        self, body: str, facets: str, pressure: _Varying, exposed: bool, along: _Along
     ) -> None: ...
     def traction(
         self,
         body: str,
         facets: str,
-        traction: list[float],
+        traction: list[_Varying],
         follower: bool,
         exposed: bool,
         along: _Along,
+    ) -> None: ...
+    def force(
+        self, body: str, nodes: str, force: list[_Varying], each: bool, along: _Along
     ) -> None: ...
     def strain(
         self,

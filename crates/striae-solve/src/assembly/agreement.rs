@@ -5,7 +5,7 @@
 //! rank would encounter it; then of the first load, by rank.
 
 use striae_element::{ElementError, ElementFault};
-use striae_mesh::{ElementId, NodeId};
+use striae_mesh::{ElementId, NodeId, Vec3};
 
 use crate::{load::LoadError, outcome::CutBack, problem::Problem};
 
@@ -39,6 +39,9 @@ fn place(problem: &Problem, fault: &CutBack) -> (usize, usize, usize) {
     }
 }
 
+/// Stands for a Gauss point where a load has no value.
+const UNDEFINED: usize = 4;
+
 /// A fault in bytes; nothing for one that all ranks have anyway.
 fn written(fault: &CutBack) -> Vec<u8> {
     let mut bytes = Vec::new();
@@ -55,11 +58,17 @@ fn written(fault: &CutBack) -> Vec<u8> {
                 .for_each(|v| bytes.extend(v.to_bits().to_le_bytes()));
         }
         CutBack::Load { body, set, error } => {
-            let LoadError::Undirected { gauss_point } = error;
             bytes.push(1);
             text(&mut bytes, body);
             text(&mut bytes, set);
-            number(&mut bytes, *gauss_point);
+            match error {
+                LoadError::Undirected { gauss_point } => number(&mut bytes, *gauss_point),
+                LoadError::Undefined { point } => {
+                    number(&mut bytes, UNDEFINED);
+                    let values = point.iter();
+                    values.for_each(|v| bytes.extend(v.to_bits().to_le_bytes()));
+                }
+            }
         }
         CutBack::CollapsedTexture { pair, body, node } => {
             bytes.push(2);
@@ -91,9 +100,7 @@ fn read(words: &mut Words) -> Option<CutBack> {
         1 => Some(CutBack::Load {
             body: words.text()?,
             set: words.text()?,
-            error: LoadError::Undirected {
-                gauss_point: words.number()?,
-            },
+            error: words.load_error()?,
         }),
         kind => {
             let (pair, body) = (words.text()?, words.text()?);
@@ -188,6 +195,15 @@ impl<'a> Words<'a> {
             5 => Some(ElementError::Shrunk { determinant: value }),
             _ => Some(ElementError::Unsettled),
         }
+    }
+
+    fn load_error(&mut self) -> Option<LoadError> {
+        Some(match self.number()? {
+            UNDEFINED => LoadError::Undefined {
+                point: Vec3::new(self.value()?, self.value()?, self.value()?),
+            },
+            gauss_point => LoadError::Undirected { gauss_point },
+        })
     }
 }
 

@@ -14,9 +14,9 @@ use crate::{
     dynamics::{ImposedRate, Motion},
     initial::Offsets,
     interference::{Positions, placed},
-    model::LoadKind,
+    model::{LoadKind, Moment, Value},
     node::GlobalNode,
-    plan::StepPlan,
+    plan::{PlannedForce, StepPlan},
     problem::Problem,
     rigid::{Pose, Wrench},
     stabilisation::Dashpot,
@@ -57,7 +57,9 @@ pub struct Imposed {
     /// Prescribed position components: `(node, axis, position)`.
     pub positions: Vec<(GlobalNode, usize, f64)>,
     /// Loads with their kinds at this point.
-    pub loads: Vec<LoadKind>,
+    pub loads: Vec<LoadKind<Value>>,
+    /// Forces at nodes.
+    pub forces: Vec<(GlobalNode, Vec3)>,
     /// Actuation of the bodies.
     pub actuations: Actuations,
     /// Coordinates of the rigid bodies; `None` where they are free.
@@ -141,8 +143,11 @@ impl<'a> StepContext<'a> {
             .pairs
             .iter()
             .map(|of| of.interference.as_ref());
+        let first = problem.plans[0].start;
         let offsets = context.offsets.iter().zip(stated);
-        let depths: Vec<f64> = offsets.map(|(of, stated)| of.search(stated)).collect();
+        let depths: Vec<f64> = offsets
+            .map(|(of, stated)| of.search(stated, first))
+            .collect();
         context = context.looking(&depths);
         let pairs = 0..problem.pairs.len();
         context.stabilisation = pairs.map(|pair| coefficient(&context, pair)).collect();
@@ -170,7 +175,8 @@ impl<'a> StepContext<'a> {
     /// The faces of a pair that interfere, at the fraction `s` of the step.
     pub fn fitted(&self, pair: usize, s: f64) -> Option<Fitted> {
         let stated = self.problem.model.pairs[pair].interference.as_ref()?;
-        self.offsets[pair].fitted(stated.at(self.index, s))
+        let first = self.problem.plans[0].start;
+        self.offsets[pair].fitted(stated.at(self.index, s, first))
     }
 
     /// Values imposed at the fraction `s` of the step, at `time`, after `state`.
@@ -187,55 +193,35 @@ impl<'a> StepContext<'a> {
 
     /// Values imposed at the fraction `s` of the step, independent of the previous state.
     pub fn imposed(&self, s: f64) -> Imposed {
-        use crate::plan::Prescription::{Go, Hold};
-        let duration = self.problem.model.steps[self.index].duration;
-        let positions = self
-            .plan
-            .displacements
-            .iter()
-            .map(|((body, node, axis), how)| {
-                let node = self.problem.node(*body, NodeId::new(*node));
-                let reference = self.problem.reference[node][*axis];
-                let start = self.start.positions[node][*axis];
-                let position = match how {
-                    Hold => start,
-                    Go { target, curve } => start + (reference + target - start) * curve.at(s),
-                };
-                (node, *axis, position)
-            });
-        let rates = self
-            .plan
-            .displacements
-            .iter()
-            .map(|((body, node, axis), how)| {
-                let node = self.problem.node(*body, NodeId::new(*node));
-                let (velocity, acceleration) = match how {
-                    Hold => (0.0, 0.0),
-                    Go { target, curve } => {
-                        let start = self.start.positions[node][*axis];
-                        let way = self.problem.reference[node][*axis] + target - start;
-                        let rate = curve.rate(s);
-                        (
-                            way * rate.first / duration,
-                            way * rate.second / (duration * duration),
-                        )
-                    }
-                };
-                ImposedRate {
-                    node,
-                    axis: *axis,
-                    velocity,
-                    acceleration,
-                }
-            });
+        let moment = self.plan.start.later(s);
+        let prescribed = self.plan.displacements.iter();
+        let prescribed = prescribed.map(|((body, node, axis), how)| {
+            let node = self.problem.node(*body, NodeId::new(*node));
+            let reference = &self.problem.reference[node];
+            let ends = [reference[*axis], self.start.positions[node][*axis]];
+            (node, *axis, reference, ends, how)
+        });
+        let positions = prescribed
+            .clone()
+            .map(|(node, axis, x, ends, how)| (node, axis, how.at(ends, x, moment)));
+        let rates = prescribed.map(|(node, axis, x, ends, how)| {
+            let [first, second] = how.rate(ends, x, moment);
+            ImposedRate {
+                node,
+                axis,
+                velocity: first / moment.duration,
+                acceleration: second / (moment.duration * moment.duration),
+            }
+        });
         Imposed {
             positions: positions.collect(),
-            loads: self.plan.loads.iter().map(|load| load.at(s)).collect(),
+            loads: self.plan.loads.iter().map(|load| load.at(moment)).collect(),
+            forces: self.forces(moment),
             actuations: self.plan.actuations(&self.problem.model.bodies, s),
             rigid: self.coordinates(s),
             driving: self.driving(s),
             before: self.start.rigid.clone(),
-            gravity: self.plan.gravity.at(s),
+            gravity: self.plan.gravity.at(moment),
             rates: rates.collect(),
             elapsed: f64::INFINITY,
             motion: None,
@@ -243,25 +229,48 @@ impl<'a> StepContext<'a> {
         }
     }
 
+    /// Forces at the nodes that this rank owns.
+    fn forces(&self, moment: Moment) -> Vec<(GlobalNode, Vec3)> {
+        let problem = self.problem;
+        let of_one = |planned: &PlannedForce| {
+            let force = planned.at(moment);
+            let nodes = planned.nodes.iter();
+            let nodes = nodes.map(|node| problem.node(planned.body.0, *node));
+            let own = nodes.filter(|node| problem.share.owns(*node));
+            let at = |node: GlobalNode| {
+                let x = &problem.reference[node];
+                (node, force.map(|value| value.at(x, moment.time)))
+            };
+            own.map(at).collect::<Vec<_>>()
+        };
+        self.plan.forces.iter().flat_map(of_one).collect()
+    }
+
     fn coordinates(&self, s: f64) -> Vec<[Option<f64>; 6]> {
+        let moment = self.plan.start.later(s);
         let plans = self.plan.rigid.iter().zip(&self.start.rigid);
         plans
             .map(|(plan, pose)| {
                 let start = pose.coordinates();
-                std::array::from_fn(|at| plan[at].as_ref().map(|how| how.at(start[at], s)))
+                std::array::from_fn(|at| {
+                    let how = plan[at].as_ref();
+                    how.map(|how| how.at([0.0, start[at]], &Vec3::zeros(), moment))
+                })
             })
             .collect()
     }
 
     /// Velocities and accelerations of the coordinates of rigid bodies, zero where free.
     pub(crate) fn rigid_rates(&self, s: f64) -> Vec<[[f64; 2]; 6]> {
-        let duration = self.problem.model.steps[self.index].duration;
+        let moment = self.plan.start.later(s);
+        let duration = moment.duration;
         let plans = self.plan.rigid.iter().zip(&self.start.rigid);
         plans
             .map(|(plan, pose)| {
                 let start = pose.coordinates();
                 std::array::from_fn(|at| {
-                    let rate = plan[at].as_ref().map(|how| how.rate(start[at], s));
+                    let how = plan[at].as_ref();
+                    let rate = how.map(|how| how.rate([0.0, start[at]], &Vec3::zeros(), moment));
                     let [first, second] = rate.unwrap_or_default();
                     [first / duration, second / (duration * duration)]
                 })
@@ -270,11 +279,12 @@ impl<'a> StepContext<'a> {
     }
 
     fn driving(&self, s: f64) -> Vec<Wrench> {
+        let moment = self.plan.start.later(s);
         let plans = self.plan.driving.iter();
         plans
             .map(|[force, torque]| Wrench {
-                force: force.at(s),
-                torque: torque.at(s),
+                force: force.at(moment),
+                torque: torque.at(moment),
             })
             .collect()
     }

@@ -6,12 +6,15 @@ use striae_contact::{
     facet_coverage::FacetCoverage,
 };
 use striae_mesh::{Face, Vec3};
-use striae_surface::{facet::Shape, scalar::Real};
+use striae_surface::{
+    facet::Shape,
+    scalar::{Real, combination, constant3},
+};
 
 use super::{Imposed, System, Trial, terms::Answer};
 use crate::{
     load,
-    model::{LoadExtent, LoadKind},
+    model::{LoadExtent, LoadKind, Value},
     outcome::CutBack,
     problem::ContactFacet,
 };
@@ -35,7 +38,20 @@ impl System<'_> {
                 })?;
             }
         }
+        self.nodal_forces(imposed);
         Ok(())
+    }
+
+    /// Forces at nodes, each added by the rank that owns the node.
+    fn nodal_forces(&mut self, imposed: &Imposed) {
+        let share = self.inertia.share_of_end;
+        for (node, force) in &imposed.forces {
+            let first = self.layout.position(*node);
+            for axis in 0..3 {
+                self.residual[first + axis] -= force[axis] * share;
+            }
+            self.forces.applied[*node] += force;
+        }
     }
 
     fn face_load(
@@ -44,7 +60,7 @@ impl System<'_> {
         trial: &Trial,
         body: usize,
         face: Face,
-        kind: &LoadKind,
+        kind: &LoadKind<Value>,
         extent: LoadExtent,
     ) -> Result<(), load::LoadError> {
         let problem = self.context.problem;
@@ -110,7 +126,7 @@ impl System<'_> {
 }
 
 struct LoadOnFace<'a> {
-    kind: &'a LoadKind,
+    kind: &'a LoadKind<Value>,
     reference: &'a [Vec3; 4],
 }
 
@@ -121,11 +137,13 @@ impl SurfaceLoad for LoadOnFace<'_> {
         xi: D,
         eta: D,
     ) -> nalgebra::Vector3<D> {
+        let weights = Shape::of(self.reference).weights(xi, eta);
+        let point = combination(&weights.value, &self.reference.map(|x| constant3(&x)));
         // Triangles have the same normals everywhere.
         let [xi, eta] = match Shape::of(self.reference) {
             Shape::Triangle => Shape::Quadrilateral.centre().map(D::from),
             Shape::Quadrilateral => [xi, eta],
         };
-        load::traction(self.kind, self.reference, x, xi, eta)
+        load::traction(&self.kind.at(&point), self.reference, x, xi, eta)
     }
 }

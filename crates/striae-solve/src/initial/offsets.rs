@@ -28,7 +28,7 @@ use striae_contact::{
 use super::LARGEST_OVERLAP;
 use crate::{
     interference::{Positions, configuration, thickness},
-    model::{Initial, InterferenceFit},
+    model::{Initial, InterferenceFit, Moment},
     problem::Problem,
     state::State,
 };
@@ -83,10 +83,11 @@ impl Offsets {
         self.seating.is_some() || all.any(|overlap| *overlap > 0.0)
     }
 
-    /// Search distance that finds all of them.
-    pub fn search(&self, interference: Option<&InterferenceFit>) -> f64 {
+    /// Distance in which contact has to be looked for to see all of them, with the start of the
+    /// first step.
+    pub fn search(&self, interference: Option<&InterferenceFit>, first: Moment) -> f64 {
         if let (Some(seating), Some(interference)) = (&self.seating, interference) {
-            let beyond = seating.largest() + interference.largest();
+            let beyond = seating.largest() + interference.largest(first);
             return AHEAD * beyond + self.reach;
         }
         let all = self.sides.iter().flatten().copied();
@@ -115,7 +116,7 @@ pub fn meant_depth(problem: &Problem, pair: usize) -> f64 {
         thickness: &thickness(problem, pair, &start.positions),
     };
     let drawn = inside(&stage, 0.0).into_iter().map(|found| found.depth);
-    drawn.fold(0.0, f64::max) + interference.largest()
+    drawn.fold(0.0, f64::max) + interference.largest(problem.plans[0].start)
 }
 
 /// The deepest overlap over the thickness of the body, if it is more than half of it, with that

@@ -54,15 +54,18 @@ fn body_reach(model: &Model, body: BodyId) -> Option<f64> {
     }
     let mut farthest: Option<f64> = None;
     for step in &model.steps {
-        let loaded = step.loads.iter().any(|load| load.body == body);
+        let loaded = step.loads(body);
         let actuated = step.actuations.iter().any(|of| of.body == body);
         if loaded || actuated || step.gravity.is_some() || step.procedure != Procedure::QuasiStatic
         {
             return None;
         }
         for condition in step.displacements.iter().filter(|d| d.body == body) {
+            if condition.varies() {
+                return None;
+            }
             let way = condition
-                .components
+                .numbers()
                 .map(|component| component.unwrap_or(0.0).abs());
             farthest = Some(farthest.unwrap_or(0.0).max(Vec3::from(way).norm()));
         }

@@ -10,9 +10,10 @@ use std::collections::BTreeSet;
 use striae_mesh::Vec3;
 
 use crate::model::{
-    BodyId, ContactSurface, Curve, Displacement, Freedom, Model, PairId, Procedure, RigidId,
-    RigidShape, Step,
+    BodyId, ContactSurface, Curve, Displacement, Freedom, Model, Moment, PairId, Procedure,
+    RigidId, RigidShape, Step,
 };
+use crate::plan::starts;
 
 /// Smallest and largest displacement along every axis.
 type Ranges = [(f64, f64); 3];
@@ -95,13 +96,13 @@ fn body_way(model: &Model, pair: PairId, body: BodyId) -> Option<Ranges> {
     }
     let mut ranges = [(0.0, 0.0); 3];
     let mut first: [Option<BTreeSet<&str>>; 3] = [None, None, None];
-    for step in &model.steps {
+    for (step, start) in model.steps.iter().zip(starts(model)) {
         if is_moved_otherwise(step, body) {
             return None;
         }
         for axis in 0..3 {
             let stated = step.displacements.iter().filter(|of| of.body == body);
-            let stated = stated.filter_map(|of| Some((of, of.components[axis]?)));
+            let stated = stated.filter_map(|of| Some((of, of.numbers()[axis]?)));
             let stated: Vec<(&Displacement, f64)> = stated.collect();
             let Some((one, target)) = stated.first() else {
                 continue;
@@ -112,7 +113,7 @@ fn body_way(model: &Model, pair: PairId, body: BodyId) -> Option<Ranges> {
             if stated.iter().any(differs) || *first[axis].get_or_insert(sets.clone()) != sets {
                 return None;
             }
-            ranges[axis] = with(ranges[axis], *target, &one.curve);
+            ranges[axis] = with(ranges[axis], *target, &one.curve, start);
         }
     }
     first.iter().any(Option::is_some).then_some(ranges)
@@ -121,20 +122,24 @@ fn body_way(model: &Model, pair: PairId, body: BodyId) -> Option<Ranges> {
 fn is_moved_otherwise(step: &Step, body: BodyId) -> bool {
     step.procedure != Procedure::QuasiStatic
         || step.gravity.is_some()
-        || step.loads.iter().any(|load| load.body == body)
+        || step.loads(body)
         || step.actuations.iter().any(|of| of.body == body)
         || step.releases.iter().any(|release| release.body == body)
+        || step
+            .displacements
+            .iter()
+            .any(|of| of.body == body && of.varies())
 }
 
 fn rigid_way(model: &Model, rigid: RigidId) -> Option<Ranges> {
     let mut ranges = [(0.0, 0.0); 3];
-    for step in &model.steps {
+    for (step, start) in model.steps.iter().zip(starts(model)) {
         for motion in step.rigid_motions.iter().filter(|of| of.surface == rigid) {
             for (at, coordinate) in motion.coordinates.iter().enumerate() {
                 match coordinate {
                     Freedom::AsBefore => {}
                     Freedom::To(target) if at < 3 => {
-                        ranges[at] = with(ranges[at], *target, &motion.curve);
+                        ranges[at] = with(ranges[at], *target, &motion.curve, start);
                     }
                     Freedom::To(angle) if *angle == 0.0 => {}
                     Freedom::To(_) | Freedom::Free => return None,
@@ -145,19 +150,14 @@ fn rigid_way(model: &Model, rigid: RigidId) -> Option<Ranges> {
     Some(ranges)
 }
 
-/// The range with all that lies on the way from any of it to a target.
-fn with((low, high): (f64, f64), target: f64, curve: &Curve) -> (f64, f64) {
-    let (least, most) = match curve {
-        Curve::Ramp | Curve::Constant | Curve::Smooth => (0.0, 1.0),
-        Curve::Table(points) => points
-            .iter()
-            .fold((0.0_f64, 1.0_f64), |(least, most), (_, c)| {
-                (least.min(*c), most.max(*c))
-            }),
-    };
-    let ends = [low, high]
-        .into_iter()
-        .flat_map(|start| [least, most].map(|c| start + c * (target - start)));
+/// The range with all that lies on the way from any of it to a target, in the step that starts then.
+fn with((low, high): (f64, f64), target: f64, curve: &Curve, start: Moment) -> (f64, f64) {
+    let [least, most] = curve.range(start);
+    let (least, most) = (least.min(0.0), most.max(1.0));
+    let ends = [low, high].into_iter().flat_map(|found| {
+        let from = curve.origin(found, 0.0);
+        [least, most].map(|c| from + c * (target - from))
+    });
     ends.fold((low, high), |(low, high), end| {
         (low.min(end), high.max(end))
     })

@@ -11,13 +11,13 @@ const CORNERS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.
 /// Tangents `[g_1, g_2]` of a face at a point.
 pub(super) type Tangents<D> = [Vector3<D>; 2];
 
-/// Force per current area at the local coordinates `(xi, eta)` of a face with
-/// reference corners `X` and current corners `x`.
+/// Force per current area of a load of these values at the local coordinates `(xi, eta)` of a
+/// face with reference corners `X` and current corners `x`.
 ///
 /// Not finite where the face has no current normal, and for a follower
 /// traction where it is turned by 180 degrees.
 pub fn traction<D: DualNum<Primitive = f64> + Copy>(
-    kind: &LoadKind,
+    kind: &LoadKind<D>,
     reference: &[Vec3; 4],
     current: &[Vector3<D>; 4],
     xi: D,
@@ -31,20 +31,20 @@ pub fn traction<D: DualNum<Primitive = f64> + Copy>(
 
 /// Force per `dxi deta` on a face with the given tangents.
 pub(super) fn parametric_traction<D: DualNum<Primitive = f64> + Copy>(
-    kind: &LoadKind,
+    kind: &LoadKind<D>,
     reference: &Tangents<D>,
     current: &Tangents<D>,
 ) -> Vector3<D> {
     let reference_normal = reference[0].cross(&reference[1]);
     let normal = current[0].cross(&current[1]);
     match *kind {
-        LoadKind::DeadTraction(traction) => lift(traction) * norm(&reference_normal),
+        LoadKind::DeadTraction(traction) => traction * norm(&reference_normal),
         LoadKind::FollowerTraction(traction) => {
             let area = norm(&normal);
             let from = reference_normal / norm(&reference_normal);
-            rotated(lift(traction), &from, &(normal / area)) * area
+            rotated(traction, &from, &(normal / area)) * area
         }
-        LoadKind::Pressure(pressure) => normal * D::from(-pressure),
+        LoadKind::Pressure(pressure) => normal * -pressure,
     }
 }
 

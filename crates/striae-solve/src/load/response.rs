@@ -2,7 +2,7 @@
 
 use super::UNKNOWNS;
 use super::integrand::{Tangents, lift, parametric_traction, shape, shape_slopes, tangents};
-use crate::model::LoadKind;
+use crate::model::{LoadKind, Value};
 use nalgebra::{U1, U6, Vector3};
 use num_dual::DualSVec64;
 use striae_mesh::Vec3;
@@ -28,20 +28,26 @@ pub enum LoadError {
         /// Local number of the Gauss point, `0..4`.
         gauss_point: usize,
     },
+    /// A function has no finite value at a point of the face.
+    #[error("a function of the load has no finite value at ({:.3e}, {:.3e}, {:.3e})", point.x, point.y, point.z)]
+    Undefined {
+        /// The point in the reference configuration.
+        point: Vec3,
+    },
 }
 
 /// A scalar with its derivatives by the two current tangents.
 type Dual = DualSVec64<6>;
 
 /// Load of the given kind on the face with reference corners `X` and current
-/// corners `x`, with its present value (a factor on the load is a factor on
-/// the value in its kind).
+/// corners `x`, with its present values (a factor on the load is a factor on
+/// the values in its kind).
 ///
 /// # Errors
 ///
-/// [`LoadError::Undirected`].
+/// As [`LoadError`] says.
 pub fn response(
-    kind: &LoadKind,
+    kind: &LoadKind<Value>,
     reference: &[Vec3; 4],
     current: &[Vec3; 4],
 ) -> Result<FaceLoad, LoadError> {
@@ -53,13 +59,20 @@ pub fn response(
     };
     for (gauss_point, [xi, eta]) in points.into_iter().enumerate() {
         let slopes = shape_slopes(xi, eta);
+        let shape = shape(xi, eta);
+        let point = (0..4).map(|a| reference[a] * shape[a]).sum::<Vec3>();
+        let kind = kind.at(&point);
+        if !kind.is_finite() {
+            return Err(LoadError::Undefined { point });
+        }
         let reference = tangents(reference, &slopes).map(lift);
         let current = variable(&tangents(current, &slopes));
-        let traction = parametric_traction(kind, &reference, &current);
+        let traction =
+            parametric_traction(&kind.map(|value| Dual::from(*value)), &reference, &current);
         if !traction.iter().all(is_finite) {
             return Err(LoadError::Undirected { gauss_point });
         }
-        load.add(&traction, &shape(xi, eta), &slopes);
+        load.add(&traction, &shape, &slopes);
     }
     Ok(load)
 }

@@ -4,8 +4,8 @@ use striae_mesh::{CellBlock, ElementId, Mesh, NodeId, Sets};
 
 use super::numbers::Numbers;
 use crate::model::{
-    Body, BodyId, BodySection, ContactSurface, Displacement, Load, Model, Pair, Release,
-    RigidSurface, Step, Tie,
+    Body, BodyId, BodySection, ContactSurface, Displacement, Load, Model, NodalForce, Pair,
+    Release, RigidSurface, Step, Tie,
 };
 
 /// The part of a model that is made of elements and nodes which are here, and all else.
@@ -127,7 +127,7 @@ fn local_step(step: &Step, numbers: &Numbers) -> Step {
         nodes: local_nodes(of.body, &of.nodes, numbers),
         set: of.set.clone(),
         body: of.body,
-        components: of.components,
+        components: of.components.clone(),
         curve: of.curve.clone(),
     };
     let release = |of: &Release| Release {
@@ -141,11 +141,16 @@ fn local_step(step: &Step, numbers: &Numbers) -> Step {
             .collect(),
         set: of.set.clone(),
         body: of.body,
-        kind: of.kind,
+        kind: of.kind.clone(),
         extent: of.extent,
         curve: of.curve.clone(),
     };
+    let force = |of: &NodalForce| NodalForce {
+        nodes: local_nodes(of.body, &of.nodes, numbers),
+        ..of.clone()
+    };
     Step {
+        forces: step.forces.iter().map(force).collect(),
         displacements: step.displacements.iter().map(displacement).collect(),
         releases: step.releases.iter().map(release).collect(),
         loads: step.loads.iter().map(load).collect(),

@@ -52,7 +52,7 @@ fn walls(model: &Model) -> Displacement {
         set: "below".to_owned(),
         body: BodyId(0),
         nodes: nodes.filter(|node| !top.contains(node)).collect(),
-        components: [None, Some(0.0), None],
+        components: [None, Some(0.0.into()), None],
         curve: Curve::Ramp,
     }
 }

@@ -224,7 +224,7 @@ impl Sliding {
                 set: "top".to_owned(),
                 body: striae_solve::model::BodyId(0),
                 nodes: vec![node],
-                components: [Some(u.x), Some(u.y), Some(u.z)],
+                components: [u.x, u.y, u.z].map(|u| Some(u.into())),
                 curve: Curve::Ramp,
             }
         });

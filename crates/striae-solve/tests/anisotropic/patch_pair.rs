@@ -59,7 +59,7 @@ fn to(model: &Model, sliding: &Sliding, place: Vector2<f64>) -> Step {
                 set: end.to_owned(),
                 body: BodyId(at),
                 nodes: vec![node],
-                components: [u.x, u.y, u.z].map(Some),
+                components: [u.x, u.y, u.z].map(|u| Some(u.into())),
                 curve: Curve::Ramp,
             });
         }

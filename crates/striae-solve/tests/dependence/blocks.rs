@@ -41,7 +41,7 @@ fn uniform(pressure: f64, speed: f64, friction: Friction) -> Model {
         nodes: (0..model.bodies[0].mesh.positions.len())
             .map(NodeId::new)
             .collect(),
-        components: [Some(x), Some(y), None],
+        components: [Some(x.into()), Some(y.into()), None],
         curve: Curve::Ramp,
     };
     let (mut press, mut slide) = (step(), step());

@@ -23,7 +23,7 @@ fn surface_load(block: &Block, x: &[Vec3], kind: impl Fn(Vec3) -> LoadKind) -> F
         let current = nodes.map(|node| x[node.index()]);
         let [a, b, c, d] = reference;
         let normal = (c - a).cross(&(d - b)).normalize();
-        let local = load::response(&kind(normal), &reference, &current).unwrap();
+        let local = load::response(&kind(normal).into(), &reference, &current).unwrap();
         scatter(&nodes, &local.force, &local.tangent, &mut total);
     }
     total

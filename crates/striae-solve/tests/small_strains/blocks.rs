@@ -158,7 +158,7 @@ pub fn model(case: &Case, depth: f64) -> Model {
             .get(set)
             .expect("a face")
             .to_vec(),
-        components: [Some(target.x), Some(target.y), Some(target.z)],
+        components: [target.x, target.y, target.z].map(|u| Some(u.into())),
         curve: Curve::Ramp,
     };
     let steps = case.increments.iter().map(|increment| {
@@ -220,6 +220,7 @@ fn step(displacements: Vec<Displacement>) -> Step {
         displacements,
         releases: Vec::new(),
         loads: Vec::new(),
+        forces: Vec::new(),
         actuations: Vec::new(),
         rigid_motions: Vec::new(),
         frictions: Vec::new(),

@@ -104,7 +104,7 @@ fn moved(model: &Model, body: usize, node: NodeId, f: &Matrix3<f64>) -> Displace
         set: "end".to_owned(),
         body: BodyId(body),
         nodes: vec![node],
-        components: [Some(u.x), Some(u.y), Some(u.z)],
+        components: [u.x, u.y, u.z].map(|u| Some(u.into())),
         curve: Curve::Ramp,
     }
 }

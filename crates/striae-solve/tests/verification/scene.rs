@@ -258,6 +258,7 @@ pub fn step() -> Step {
         displacements: Vec::new(),
         releases: Vec::new(),
         loads: Vec::new(),
+        forces: Vec::new(),
         actuations: Vec::new(),
         rigid_motions: Vec::new(),
         frictions: Vec::new(),
@@ -357,7 +358,7 @@ impl Places for Model {
             set: set.to_owned(),
             body: BodyId(self.body(body)),
             nodes: self.nodes(body, set),
-            components,
+            components: components.map(|of| of.map(Into::into)),
             curve: Curve::Ramp,
         }
     }
@@ -367,7 +368,7 @@ impl Places for Model {
             set: "pin".to_owned(),
             body: BodyId(self.body(body)),
             nodes: vec![self.node_at(body, x)],
-            components,
+            components: components.map(|of| of.map(Into::into)),
             curve: Curve::Ramp,
         }
     }
@@ -377,7 +378,7 @@ impl Places for Model {
             set: set.to_owned(),
             body: BodyId(self.body(body)),
             faces: self.faces(body, set),
-            kind,
+            kind: kind.into(),
             extent,
             curve: Curve::Ramp,
         }

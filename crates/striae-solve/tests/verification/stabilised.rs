@@ -147,7 +147,7 @@ fn stabilisation_does_not_alter_a_body_that_is_held() {
         let mut model = pressed(0.0, coulomb(0.3));
         model.pairs[0].stabilised = stabilised;
         model.steps[0].increments = increments(0.002, 1e-3);
-        model.steps[0].loads[0].kind = LoadKind::Pressure(1e-3);
+        model.steps[0].loads[0].kind = LoadKind::Pressure(1e-3).into();
         Run::of(model)
     };
     let (with, without) = (run(true), run(false));

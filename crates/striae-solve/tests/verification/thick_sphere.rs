@@ -79,7 +79,7 @@ fn pressed(n: usize, c: f64) -> Model {
         set: "inside".to_owned(),
         body: BodyId(0),
         faces: inner.collect(),
-        kind: LoadKind::Pressure(pressure),
+        kind: LoadKind::Pressure(pressure).into(),
         extent: LoadExtent::Whole,
         curve: Curve::Ramp,
     };
@@ -92,7 +92,7 @@ fn pressed(n: usize, c: f64) -> Model {
             set: "symmetry".to_owned(),
             body: BodyId(0),
             nodes: nodes.map(|(node, _)| NodeId::new(node)).collect(),
-            components,
+            components: components.map(|of| of.map(Into::into)),
             curve: Curve::Ramp,
         }
     };

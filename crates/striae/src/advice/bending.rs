@@ -16,7 +16,9 @@ use std::collections::BTreeSet;
 use nalgebra::{Matrix3, SymmetricEigen};
 use striae_contact::initial::Fit;
 use striae_mesh::{CellKind, Face, Mesh, NodeId, Vec3};
-use striae_model::{Body, BodyId, ContactSurface, Formulation, LoadKind, Model, RigidShape, Step};
+use striae_model::{
+    Body, BodyId, ContactSurface, Formulation, LoadKind, Model, RigidShape, Step, Value,
+};
 
 use super::{Advice, Topic, parts::Part};
 
@@ -149,16 +151,22 @@ fn is_pushed(model: &Model, body: BodyId, axis: &Vec3) -> bool {
     let pushes = |step: &Step| {
         let gravity = step.gravity.as_ref();
         let loads = step.loads.iter().filter(|load| load.body == body);
+        let forces = step.forces.iter().filter(|of| of.body == body);
         let moves = step.displacements.iter().filter(|of| of.body == body);
         gravity.is_some_and(|gravity| gravity.acceleration.dot(axis) != 0.0)
-            || loads.into_iter().any(|load| match load.kind {
-                LoadKind::DeadTraction(t) => t.dot(axis) != 0.0,
-                LoadKind::FollowerTraction(t) => t.norm() > 0.0 && across(&load.faces),
-                LoadKind::Pressure(p) => p != 0.0 && across(&load.faces),
+            || loads.into_iter().any(|load| match load.kind.numbers() {
+                Some(LoadKind::DeadTraction(t)) => t.dot(axis) != 0.0,
+                Some(LoadKind::FollowerTraction(t)) => t.norm() > 0.0 && across(&load.faces),
+                Some(LoadKind::Pressure(p)) => p != 0.0 && across(&load.faces),
+                None => true,
+            })
+            || forces.into_iter().any(|of| {
+                let along = |(force, e): (&Value, &f64)| force.number() != Some(0.0) && *e != 0.0;
+                of.force.iter().zip(axis.iter()).any(along)
             })
             || moves.into_iter().any(|of| {
-                let target = of.components.map(|component| component.unwrap_or(0.0));
-                Vec3::from(target).dot(axis) != 0.0
+                let target = of.numbers().map(|component| component.unwrap_or(0.0));
+                of.varies() || Vec3::from(target).dot(axis) != 0.0
             })
     };
     let touches = |side: &ContactSurface| matches!(side, ContactSurface::Deformable { body: of, faces } if *of == body && across(faces));

@@ -172,7 +172,7 @@ fn thickness(model: &Model, body: BodyId, thin: Thin, advice: &mut Advice) {
 fn moved(model: &Model, step: &Step) -> f64 {
     let own = step.displacements.iter().map(|of| {
         let before = previous(model, step, of.body, &of.nodes);
-        let change = [0, 1, 2].map(|axis| of.components[axis].map_or(0.0, |to| to - before[axis]));
+        let change = [0, 1, 2].map(|axis| of.numbers()[axis].map_or(0.0, |to| to - before[axis]));
         Vec3::from(change).norm()
     });
     let rigid = step.rigid_motions.iter().map(|motion| {
@@ -212,7 +212,7 @@ fn previous(model: &Model, step: &Step, body: BodyId, nodes: &[NodeId]) -> [f64;
     let mut reached = [0.0; 3];
     for condition in earlier(model, step).flat_map(|step| &step.displacements) {
         if condition.body == body && condition.nodes.iter().any(|node| of.contains(node)) {
-            for (axis, target) in condition.components.iter().enumerate() {
+            for (axis, target) in condition.numbers().iter().enumerate() {
                 reached[axis] = target.unwrap_or(reached[axis]);
             }
         }

@@ -99,7 +99,7 @@ fn of_body(model: &Model, body: BodyId, step: &Step, n: &Vec3) -> Option<f64> {
         || rigid
             .flat_map(|rigid| &rigid.ties)
             .any(|(of, _)| *of == body);
-    let loaded = step.gravity.is_some() || step.loads.iter().any(|load| load.body == body);
+    let loaded = step.gravity.is_some() || step.loads(body);
     if tied || loaded || step.procedure != Procedure::QuasiStatic {
         return None;
     }
@@ -108,7 +108,7 @@ fn of_body(model: &Model, body: BodyId, step: &Step, n: &Vec3) -> Option<f64> {
     let along = |axis: usize| n[axis].abs() > NORMAL;
     let ways = conditions.filter_map(|of| {
         let axis = (0..3).find(|axis| along(*axis) && of.components[*axis].is_some())?;
-        Some(of.components[axis]? * n[axis])
+        Some(of.numbers()[axis]? * n[axis])
     });
     let farthest = ways.max_by(|a, b| a.abs().total_cmp(&b.abs()));
     Some(farthest.unwrap_or(0.0))

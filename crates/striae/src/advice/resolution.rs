@@ -74,7 +74,7 @@ fn nodes(model: &Model, pair: &Pair, step: &Step) -> Option<(usize, usize)> {
 pub(super) fn approach(step: &Step, body: BodyId, rigid: RigidId, n: &Vec3) -> f64 {
     let own = step.displacements.iter().filter(|of| of.body == body);
     let own = own.map(|of| {
-        let target = of.components.map(|component| component.unwrap_or(0.0));
+        let target = of.numbers().map(|component| component.unwrap_or(0.0));
         -Vec3::from(target).dot(n)
     });
     let motions = step.rigid_motions.iter();

@@ -33,7 +33,7 @@ fn displacements(model: &Model, id: BodyId, body: &Body, advice: &mut Advice) {
     let largest = own
         .flat_map(|(step, of)| {
             let components = (0..3).filter(move |axis| crossing[*axis]);
-            components.filter_map(move |axis| Some((step, of.components[axis]?.abs())))
+            components.filter_map(move |axis| Some((step, of.numbers()[axis]?.abs())))
         })
         .max_by(|(_, a), (_, b)| a.total_cmp(b));
     let [low, high] = extent(&body.mesh);

@@ -49,7 +49,8 @@ fn loads(model: &Model, body: BodyId, [soft, stiff]: [f64; 2], advice: &mut Advi
     let loads = model.steps.iter().flat_map(|step| &step.loads);
     let largest = loads
         .filter(|load| load.body == body)
-        .map(|load| match load.kind {
+        .filter_map(|load| load.kind.numbers())
+        .map(|kind| match kind {
             LoadKind::DeadTraction(t) | LoadKind::FollowerTraction(t) => t.norm(),
             LoadKind::Pressure(p) => p.abs(),
         })

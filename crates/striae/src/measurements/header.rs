@@ -1,9 +1,10 @@
 //! Names of the columns of a file, and the reading of a line by them.
 
+use striae_files::Separator;
 use striae_law::fit::Reading;
 use striae_model::nearest;
 
-use super::{COLUMNS, Form, MeasurementFault, NamedColumn, fault, lines::Separator};
+use super::{COLUMNS, Form, MeasurementFault, NamedColumn, fault};
 
 /// Assignment of the fields of a line to quantities.
 pub(super) struct Header {

@@ -20,8 +20,8 @@ use std::{
 use striae_deck::Setting;
 use striae_output::checkpoint::{Checkpoint, CheckpointError, Index, step_fingerprint};
 use striae_solve::{
-    model::{Actuation, BodyId, Curve, Gravity, Load, Model, RigidMotion, Step},
-    plan::{PlannedActuation, PlannedLoad, plans},
+    model::{Actuation, BodyId, Curve, Gravity, Load, Model, NodalForce, RigidMotion, Step},
+    plan::{PlannedActuation, PlannedForce, PlannedLoad, plans},
 };
 
 use super::{Begun, Simulation, case_name, read_again, source};
@@ -141,25 +141,33 @@ fn continued(model: &mut Model, index: &Index) -> Result<TakenUp, Error> {
 fn ended(model: &Model, index: usize, fraction: f64) -> Step {
     let step = &model.steps[index];
     let plan = &plans(model)[index];
+    let moment = plan.start.later(fraction);
     let load = |load: &PlannedLoad| Load {
         set: load.set.clone(),
         body: load.body,
         faces: load.faces.clone(),
-        kind: load.at(fraction),
+        kind: load.at(moment),
         extent: load.extent,
+        curve: Curve::Ramp,
+    };
+    let force = |of: &PlannedForce| NodalForce {
+        set: of.set.clone(),
+        body: of.body,
+        nodes: of.nodes.clone(),
+        force: of.at(moment),
         curve: Curve::Ramp,
     };
     let actuation = |planned: &PlannedActuation| Actuation {
         body: BodyId(planned.body),
         section: Some(planned.section),
-        kind: planned.at(fraction),
+        kind: planned.at(moment),
         curve: Curve::Ramp,
     };
     let motion = |motion: &RigidMotion| {
         let [force, torque] = &plan.driving[motion.surface.0];
         RigidMotion {
-            force: motion.force.map(|_| force.at(fraction)),
-            torque: motion.torque.map(|_| torque.at(fraction)),
+            force: motion.force.map(|_| force.at(moment)),
+            torque: motion.torque.map(|_| torque.at(moment)),
             ..motion.clone()
         }
     };
@@ -167,10 +175,11 @@ fn ended(model: &Model, index: usize, fraction: f64) -> Step {
         name: format!("{}, until it was stopped", step.name),
         duration: step.duration * fraction,
         gravity: step.gravity.as_ref().map(|_| Gravity {
-            acceleration: plan.gravity.at(fraction),
+            acceleration: plan.gravity.at(moment),
             curve: Curve::Ramp,
         }),
         loads: plan.loads.iter().map(load).collect(),
+        forces: plan.forces.iter().map(force).collect(),
         actuations: plan.actuations.iter().map(actuation).collect(),
         rigid_motions: step.rigid_motions.iter().map(motion).collect(),
         ..step.clone()

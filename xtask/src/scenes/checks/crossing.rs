@@ -26,7 +26,7 @@ use super::Findings;
 /// Largest depth over the size of a facet.
 const CROSSING: f64 = 0.3;
 
-/// How far an axis may point inwards, along the difference of two outward normals: of facets at an
+/// Share by which an axis may point inwards, along the difference of two outward normals: of facets at an
 /// angle to each other, edges also part along axes that point a little inwards.
 const LEVEL: f64 = 0.7;
 
@@ -178,7 +178,7 @@ mod tests {
         assert!(!pierces(&tip(1.2, -0.1), &flat));
     }
 
-    /// What a cube is worth whose upper neighbour comes down to a height.
+    /// Measure of a cube whose upper neighbour comes down to a height.
     fn measure(height: f64, shift: f64) -> f64 {
         let cube = |z: f64, shift: f64| {
             let plan = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];

@@ -98,6 +98,11 @@ fn loads(context: &StepContext, s: f64) -> f64 {
             }
         }
     }
+    sum += imposed
+        .forces
+        .iter()
+        .map(|(_, force)| force.norm())
+        .sum::<f64>();
     let gravity = imposed.gravity.norm();
     for (body, elements) in problem.elements.iter().enumerate() {
         let masses = elements

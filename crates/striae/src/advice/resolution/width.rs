@@ -86,7 +86,7 @@ fn of_side(step: &Step, side: &ContactSurface) -> Vec3 {
     let mut ways: Vec<Vec3> = Vec::new();
     if let ContactSurface::Deformable { body, .. } = side {
         let own = step.displacements.iter().filter(|of| of.body == *body);
-        let own = own.map(|of| of.components.map(|component| component.unwrap_or(0.0)));
+        let own = own.map(|of| of.numbers().map(|component| component.unwrap_or(0.0)));
         ways.extend(own.map(Vec3::from));
     }
     if let ContactSurface::Rigid(rigid) = side {

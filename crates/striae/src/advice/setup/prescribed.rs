@@ -74,12 +74,12 @@ fn axes(mesh: &Mesh, face: Face, kind: &LoadKind) -> Vec<usize> {
 fn idle(model: &Model, step: &Step, load: &Load, prescribed: &Prescribed, advice: &mut Advice) {
     let body = &model.bodies[load.body.0];
     let of_body = &prescribed[load.body.0];
-    if of_body.is_empty() {
+    let Some(numbers) = load.kind.numbers().filter(|_| !of_body.is_empty()) else {
         return;
-    }
+    };
     let mut acting = BTreeSet::new();
     let held = load.faces.iter().all(|&face| {
-        let axes = axes(&body.mesh, face, &load.kind);
+        let axes = axes(&body.mesh, face, &numbers);
         acting.extend(axes.iter().copied());
         let nodes = body.mesh.face_nodes(face);
         let held = |node: &NodeId| axes.iter().all(|axis| of_body.contains(&(*node, *axis)));

@@ -28,7 +28,7 @@ impl Row {
         self.gaps > 0 && column % (self.lamella + 1) == self.lamella && column < self.cells()
     }
 
-    /// Where the grid line of a number is, from the share of all of them.
+    /// Place of a grid line, from the share of all of them.
     fn place(&self, share: f64) -> f64 {
         let line = (share * self.cells() as f64).round() as usize;
         let width = |column| {

@@ -1,16 +1,19 @@
-//! Fields of a line and the numbers in them.
+//! Fields of a line of a table, and the numbers in them.
 
 /// Letter between the fields of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Separator {
+pub enum Separator {
+    /// `,`
     Comma,
+    /// `;`
     Semicolon,
+    /// A tab.
     Tab,
 }
 
 impl Separator {
     /// The separator of a file with this first line.
-    pub(super) fn of(line: &str) -> Self {
+    pub fn of(line: &str) -> Self {
         match line {
             line if line.contains(';') => Self::Semicolon,
             line if line.trim().contains('\t') => Self::Tab,
@@ -27,7 +30,7 @@ impl Separator {
     }
 
     /// The fields of a line without blanks and quotation marks, with their columns in the text.
-    pub(super) fn fields(self, line: &str) -> impl Iterator<Item = (usize, &str)> {
+    pub fn fields(self, line: &str) -> impl Iterator<Item = (usize, &str)> {
         let mut start = 0;
         line.split(self.letter()).map(move |field| {
             let blanks = field.chars().take_while(|c| c.is_whitespace()).count();
@@ -38,7 +41,7 @@ impl Separator {
     }
 
     /// A number, with a decimal comma where commas do not separate.
-    pub(super) fn number(self, text: &str) -> Option<f64> {
+    pub fn number(self, text: &str) -> Option<f64> {
         match self {
             Self::Semicolon | Self::Tab if text.matches(',').count() == 1 => {
                 text.replace(',', ".").parse().ok()
