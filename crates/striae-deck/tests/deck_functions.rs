@@ -227,12 +227,20 @@ fn faults_of_functions_have_places_and_remedies() {
             "at letter 1: there is no `B`; [parameters] has `A`",
         ),
         (
+            r#""1/(x - 2)""#,
+            "`1/(x - 2)` has no finite value at x = 2, y = 0, z = 0, t = 0; it must have one",
+        ),
+        (
+            r#""sqrt(0.5 - t)""#,
+            "has no finite value at x = 0, y = 0, z = 0, t = 0.525",
+        ),
+        (
             r#""= 2*t""#,
             "there is no parameter `t`; [parameters] has `A`; a function of position and time is written without the `=`",
         ),
         (
             "true",
-            "expected a number or a function of `x`, `y`, `z` and `t`, such as \"0.1*x*sin(2*pi*t)\"",
+            "must be a number or a function of `x`, `y`, `z` and `t`, such as \"0.1*x*sin(2*pi*t)\"",
         ),
     ] {
         let told = faults(&step(target));

@@ -1,28 +1,35 @@
 //! Targets that are no finite numbers somewhere.
 
 use striae_mesh::{NodeId, Vec3};
-use striae_solve::model::{LoadKind, Model, Moment, Step, Value};
+use striae_solve::model::{BodyId, Course, Curve, History, LoadKind, Moment, Step, Value};
 
-use super::List;
+use super::{Draft, List};
 use crate::{fault::FaultKind, path::Path};
 
 /// Moments of a step at which functions are looked at, but for its start.
 const MOMENTS: usize = 40;
 
 /// Moments spread over the step that starts then.
-pub(super) fn moments(start: Moment) -> impl Iterator<Item = Moment> + Clone {
+fn moments(start: Moment) -> impl Iterator<Item = Moment> + Clone {
     (0..=MOMENTS).map(move |at| start.later(at as f64 / MOMENTS as f64))
 }
 
 /// Notes every target of a step that is no finite number at a node or within a face.
-pub(super) fn of_step(model: &Model, step: &Step, start: Moment, path: &Path, faults: &mut List) {
+pub(super) fn of_step(
+    draft: &Draft<'_>,
+    (step, start): (&Step, Moment),
+    path: &Path,
+    faults: &mut List,
+) {
+    let mesh_of = |body: BodyId| draft.bodies.get(body.0).and_then(|body| body.mesh);
+    curves(step, start, path, faults);
     let mut look = |list, index, value: &Value, points: &mut dyn Iterator<Item = Vec3>| {
         if let Some(kind) = undefined(value, start, points) {
             faults.push(path.clone().field(list).index(index), kind);
         }
     };
     for (index, of) in step.displacements.iter().enumerate() {
-        let mesh = model.bodies.get(of.body.0).map(|body| &body.mesh);
+        let mesh = mesh_of(of.body);
         for value in of.components.iter().flatten() {
             let at = |node: &NodeId| mesh?.positions.get(node.index()).copied();
             look(
@@ -34,14 +41,14 @@ pub(super) fn of_step(model: &Model, step: &Step, start: Moment, path: &Path, fa
         }
     }
     for (index, of) in step.forces.iter().enumerate() {
-        let mesh = model.bodies.get(of.body.0).map(|body| &body.mesh);
+        let mesh = mesh_of(of.body);
         for value in of.force.iter() {
             let at = |node: &NodeId| mesh?.positions.get(node.index()).copied();
             look("forces", index, value, &mut of.nodes.iter().filter_map(at));
         }
     }
     for (index, of) in step.loads.iter().enumerate() {
-        let Some(mesh) = model.bodies.get(of.body.0).map(|body| &body.mesh) else {
+        let Some(mesh) = mesh_of(of.body) else {
             continue;
         };
         let values = match &of.kind {
@@ -56,6 +63,37 @@ pub(super) fn of_step(model: &Model, step: &Step, start: Moment, path: &Path, fa
                 corners.map(|corner| (corner + middle) / 2.0)
             });
             look("loads", index, value, &mut { points });
+        }
+    }
+}
+
+/// Notes every curve that is a function of time without a finite value at some moment.
+fn curves(step: &Step, start: Moment, path: &Path, faults: &mut List) {
+    let displacements = step.displacements.iter().map(|of| &of.curve);
+    let loads = step.loads.iter().map(|of| &of.curve);
+    let forces = step.forces.iter().map(|of| &of.curve);
+    let motions = step.rigid_motions.iter().map(|of| &of.curve);
+    let lists: [(_, Vec<&Curve>); 4] = [
+        ("displacements", displacements.collect()),
+        ("loads", loads.collect()),
+        ("forces", forces.collect()),
+        ("rigid_motions", motions.collect()),
+    ];
+    for (list, curves) in lists {
+        for (index, curve) in curves.into_iter().enumerate() {
+            let Curve::History(History {
+                course: Course::Function(function),
+                ..
+            }) = curve
+            else {
+                continue;
+            };
+            let lost = moments(start).find(|moment| !curve.at(*moment).is_finite());
+            if let Some(moment) = lost {
+                let (function, t) = (function.text().to_owned(), moment.time);
+                let path = path.clone().field(list).index(index);
+                faults.push(path, FaultKind::UndefinedCurve { function, t });
+            }
         }
     }
 }

@@ -3,13 +3,12 @@
 use striae_law::bulk::{LameConstants, Material};
 use striae_mesh::Vec3;
 use striae_solve::model::{
-    Clock, ClosedGaps, Course, Curve, History, Initial, Model, Moment, Pair, Procedure,
-    RigidInertia, RigidShape, Step,
+    Clock, ClosedGaps, Course, Curve, History, Initial, Model, Pair, Procedure, RigidInertia,
+    RigidShape, Step,
 };
-use striae_solve::plan::starts;
 use striae_surface::texture::{Lines, Paint};
 
-use super::{List, functions};
+use super::List;
 use crate::{
     fault::{Fault, FaultKind},
     path::Path,
@@ -25,15 +24,12 @@ pub(super) fn faults(model: &Model) -> Vec<Fault> {
     let mut faults = List::default();
     bodies(model, &mut faults);
     rigid_surfaces(model, &mut faults);
-    let first = Moment::start(model.steps.first().map_or(1.0, |step| step.duration));
     for (index, pair) in model.pairs.iter().enumerate() {
-        of_pair(pair, first, &Path::part("pairs", index), &mut faults);
+        of_pair(pair, &Path::part("pairs", index), &mut faults);
     }
-    let starts = starts(model).into_iter();
-    for (index, (step, start)) in model.steps.iter().zip(starts).enumerate() {
+    for (index, step) in model.steps.iter().enumerate() {
         let path = Path::part("steps", index);
-        of_step(step, start, &path, &mut faults);
-        functions::of_step(model, step, start, &path, &mut faults);
+        of_step(step, &path, &mut faults);
     }
     let path = Path::of("solver").field("tolerance");
     let tolerance = model.solver.tolerance;
@@ -144,7 +140,7 @@ fn is_possible(inertia: &RigidInertia) -> bool {
     positive && 2.0 * largest <= moments.iter().sum::<f64>() * (1.0 + 1e-12)
 }
 
-fn of_pair(pair: &Pair, first: Moment, path: &Path, faults: &mut List) {
+fn of_pair(pair: &Pair, path: &Path, faults: &mut List) {
     let name = &pair.name;
     if let Some(distance) = pair.search_distance {
         let what = format!("the search distance of pair `{name}`");
@@ -167,7 +163,7 @@ fn of_pair(pair: &Pair, first: Moment, path: &Path, faults: &mut List) {
         let path = path.clone().field("interference");
         let what = format!("the interference of pair `{name}`");
         faults.range(path.clone(), &what, interference.value, FINITE);
-        curve(&interference.curve, first, path, faults);
+        curve(&interference.curve, path, faults);
     }
     for (side, paint) in pair.textures.iter().enumerate() {
         let path = || path.clone().field("textures").index(side);
@@ -190,7 +186,7 @@ fn of_pair(pair: &Pair, first: Moment, path: &Path, faults: &mut List) {
     }
 }
 
-fn of_step(step: &Step, start: Moment, path: &Path, faults: &mut List) {
+fn of_step(step: &Step, path: &Path, faults: &mut List) {
     let name = &step.name;
     let what = format!("the duration of step `{name}`");
     faults.range(
@@ -216,7 +212,7 @@ fn of_step(step: &Step, start: Moment, path: &Path, faults: &mut List) {
     let mut curves = |list, all: &mut dyn Iterator<Item = &Curve>| {
         for (index, of) in all.enumerate() {
             let path = path.clone().field(list).index(index);
-            curve(of, start, path, faults);
+            curve(of, path, faults);
         }
     };
     curves("displacements", &mut displacements);
@@ -227,26 +223,14 @@ fn of_step(step: &Step, start: Moment, path: &Path, faults: &mut List) {
     let mut motions = step.rigid_motions.iter().map(|of| &of.curve);
     curves("rigid_motions", &mut motions);
     if let Some(gravity) = &step.gravity {
-        curve(&gravity.curve, start, path.clone().field("gravity"), faults);
+        curve(&gravity.curve, path.clone().field("gravity"), faults);
     }
 }
 
-fn curve(curve: &Curve, start: Moment, path: Path, faults: &mut List) {
+fn curve(curve: &Curve, path: Path, faults: &mut List) {
     let path = path.field("curve");
     if let Some(kind) = misshapen(&path.to_string(), curve) {
         faults.push(path, kind);
-        return;
-    }
-    if let Curve::History(History {
-        course: Course::Function(function),
-        ..
-    }) = curve
-    {
-        let lost = functions::moments(start).find(|moment| !curve.at(*moment).is_finite());
-        if let Some(moment) = lost {
-            let (function, t) = (function.text().to_owned(), moment.time);
-            faults.push(path, FaultKind::UndefinedCurve { function, t });
-        }
     }
 }
 

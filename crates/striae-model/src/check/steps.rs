@@ -2,7 +2,7 @@
 
 use striae_solve::model::{Load, LoadKind, Moment, Mover, Procedure, Step};
 
-use super::{Draft, Known, List, Positions, actuations, conditions, pairs};
+use super::{Draft, Known, List, Positions, actuations, conditions, functions, pairs};
 use crate::{fault::FaultKind, path::Path};
 
 /// Notes faults within steps; returns those that are not whole.
@@ -24,6 +24,7 @@ pub(super) fn check(draft: &Draft<'_>, impossible: &Positions, faults: &mut List
         };
         time = start.later(1.0).time;
         actuations::check(draft, (step, start), &path, &mut reached, faults);
+        functions::of_step(draft, (step, start), &path, faults);
         velocities(draft, step, &path, faults);
         rigid_motions(draft, step, &path, faults);
         frictions(draft, step, impossible, &path, faults);
