@@ -1,6 +1,8 @@
 //! Forms of the values a deck may contain: what the reader accepts, what it
 //! says it expects, what the JSON schema and the reference list.
 
+use striae_law::declared::Bound;
+
 /// The form of a value.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Form {
@@ -14,6 +16,8 @@ pub(crate) enum Form {
     Whole(usize),
     /// A table of numbers or expressions with any names.
     NamedNumbers,
+    /// The name of a law, beside the keys of its parameters.
+    Law(Open),
     /// One of several words.
     Words(Vec<(&'static str, &'static str)>),
     /// A list, of a fixed length or any.
@@ -24,17 +28,11 @@ pub(crate) enum Form {
     Any(Vec<Form>),
 }
 
-/// A bound of a number.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Bound {
-    /// Larger than.
-    Above(f64),
-    /// Not smaller than.
-    AtLeast(f64),
-    /// Smaller than.
-    Below(f64),
-    /// Not larger than.
-    AtMost(f64),
+/// A kind of laws to which programs may add.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Open {
+    /// Friction.
+    Friction,
 }
 
 /// One composition of a table.
@@ -73,6 +71,7 @@ impl Form {
             Self::Number(bounds) => format!("a number{}", bounded(bounds)),
             Self::Whole(least) => format!("a whole number of at least {least}"),
             Self::NamedNumbers => "a table of numbers".into(),
+            Self::Law(_) => "the name of a law".into(),
             Self::Words(words) => format!("one of {}", ticked(words.iter().map(|(word, _)| *word))),
             Self::List(of, None) => format!("a list of {}", of.plural()),
             Self::List(of, Some(length)) => format!("a list of {length} {}", of.plural()),
@@ -91,6 +90,7 @@ impl Form {
             Self::Number(bounds) => format!("numbers{}", bounded(bounds)),
             Self::Whole(least) => format!("whole numbers of at least {least}"),
             Self::NamedNumbers => "tables of numbers".into(),
+            Self::Law(_) => "names of laws".into(),
             Self::Words(words) => {
                 format!("the words {}", ticked(words.iter().map(|(word, _)| *word)))
             }
@@ -101,18 +101,6 @@ impl Form {
                 let forms: Vec<String> = forms.iter().map(Form::plural).collect();
                 forms.join(" or ")
             }
-        }
-    }
-}
-
-impl Bound {
-    /// Whether a number respects the bound.
-    pub(crate) fn admits(self, value: f64) -> bool {
-        match self {
-            Self::Above(limit) => value > limit,
-            Self::AtLeast(limit) => value >= limit,
-            Self::Below(limit) => value < limit,
-            Self::AtMost(limit) => value <= limit,
         }
     }
 }

@@ -3,6 +3,8 @@
 //! It prints the law as a table of a deck, the interval of each constant and how far the
 //! readings scatter about the law; see [`striae_law::fit`].
 
+mod sought;
+
 use std::{
     io::Write,
     path::{Path, PathBuf},
@@ -14,12 +16,14 @@ use striae::{
     measurements::{self, AngleFrom, Form, Measured, MeasurementFaults, NamedColumn},
 };
 use striae_law::{
-    fit::{ConstantName, Fit, Reading, Sought, Standing, fit},
-    friction::SlipRule,
+    declared::{Absent, Kind, Value},
+    fit::{Fit, Reading, Sought, Standing, fit},
+    friction::{Friction, RequiredTextures},
 };
 
 use super::law::make_folder;
 use crate::failure::Failure;
+use sought::Law;
 
 /// Find the constants of a friction law from measurements.
 ///
@@ -35,12 +39,8 @@ use crate::failure::Failure;
 pub struct Arguments {
     /// The file of measurements.
     measurements: PathBuf,
-    /// The law.
-    #[arg(long, value_enum)]
-    law: LawName,
-    /// Direction of slip by the orthotropic law.
-    #[arg(long, value_enum, default_value = "opposing")]
-    slip_rule: RuleName,
+    #[command(flatten)]
+    law: Law,
     /// Where the angle 0 is: slip across the grooves (against a nap), or along them.
     #[arg(long, value_enum, default_value = "across")]
     angle_from: FromName,
@@ -68,23 +68,6 @@ enum FromName {
     Along,
 }
 
-/// Laws that can be fitted, by their names in decks.
-#[derive(Clone, Copy, clap::ValueEnum)]
-enum LawName {
-    Coulomb,
-    Orthotropic,
-    Nap,
-    TwoTextures,
-    Tabulated,
-}
-
-/// Slip rules by their names in decks.
-#[derive(Clone, Copy, clap::ValueEnum)]
-enum RuleName {
-    Opposing,
-    Associated,
-}
-
 impl Arguments {
     fn form(&self) -> Form {
         Form {
@@ -98,29 +81,16 @@ impl Arguments {
     }
 
     /// Where the angle 0 is, for laws that depend on it.
-    fn convention(&self) -> Option<&'static str> {
-        match (self.law, self.angle_from) {
-            (LawName::Coulomb, _) => None,
-            (LawName::TwoTextures, FromName::Across) => Some(
+    fn convention(&self, found: &Friction) -> Option<&'static str> {
+        match (found.required_textures(), self.angle_from) {
+            (RequiredTextures::Any, _) => None,
+            (RequiredTextures::Both, FromName::Across) => Some(
                 "angle 0 is slip across the bisector of the two textures; if yours counts from along it, add `--angle-from along`",
             ),
-            (_, FromName::Across) => Some(
+            (RequiredTextures::One, FromName::Across) => Some(
                 "angle 0 is slip across the grooves (against a nap); if yours is along them, add `--angle-from along`",
             ),
             (_, FromName::Along) => Some("angle 0 is slip along the grooves"),
-        }
-    }
-
-    fn sought(&self) -> Sought {
-        match (self.law, self.slip_rule) {
-            (LawName::Coulomb, _) => Sought::Coulomb,
-            (LawName::Orthotropic, RuleName::Opposing) => Sought::Orthotropic(SlipRule::Opposing),
-            (LawName::Orthotropic, RuleName::Associated) => {
-                Sought::Orthotropic(SlipRule::Associated)
-            }
-            (LawName::Nap, _) => Sought::Nap,
-            (LawName::TwoTextures, _) => Sought::TwoTextures,
-            (LawName::Tabulated, _) => Sought::Tabulated,
         }
     }
 }
@@ -131,11 +101,11 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     let text = std::fs::read_to_string(&arguments.measurements)
         .map_err(|cause| MeasurementFaults::unreadable(&file, &cause))?;
     let Measured { readings, notes } = measurements::read(&text, &file, &arguments.form())?;
-    let sought = arguments.sought();
+    let Law(sought) = &arguments.law;
     let found = fit(sought, &readings, arguments.level)?;
     let said = Said {
         deck: snippet(sought, &found),
-        convention: arguments.convention(),
+        convention: arguments.convention(&found.friction),
         notes,
     };
     match arguments.json {
@@ -218,25 +188,24 @@ impl Said {
     }
 }
 
-/// The law as a deck states it.
-fn snippet(sought: Sought, found: &Fit) -> String {
-    let mut text = format!("friction = {{ law = \"{}\"", sought.name());
-    let list = |numbers: Vec<String>| numbers.join(", ");
-    if sought == Sought::Tabulated {
-        let angle = |name: ConstantName| match name {
-            ConstantName::MuAt(angle) => Some(figures::law::degrees(angle).to_string()),
-            ConstantName::Key(_) => None,
+/// The law as a deck states it, but for words that are the default.
+fn snippet(sought: &Sought, found: &Fit) -> String {
+    let law = sought.law();
+    let stated = found.friction.statement();
+    let mut text = format!("friction = {{ law = \"{}\"", law.name);
+    for parameter in law.parameters {
+        let value = stated.and_then(|stated| stated.values.get(parameter.name));
+        let value = match (value, parameter.absent) {
+            (None, _) => continue,
+            (Some(Value::Word(word)), Absent::Word(default)) if *word == default => continue,
+            (Some(Value::Word(word)), _) => format!("\"{word}\""),
+            (Some(Value::Number(number)), _) => rounded(*number),
+            (Some(Value::Numbers(numbers)), _) => {
+                let numbers: Vec<String> = numbers.iter().copied().map(rounded).collect();
+                format!("[{}]", numbers.join(", "))
+            }
         };
-        let angles = found.constants.iter().filter_map(|one| angle(one.name));
-        let mu = found.constants.iter().map(|one| rounded(one.value));
-        let (angles, mu) = (list(angles.collect()), list(mu.collect()));
-        return text + &format!(", angles = [{angles}], mu = [{mu}] }}");
-    }
-    for constant in &found.constants {
-        text += &format!(", {} = {}", constant.name, rounded(constant.value));
-    }
-    if sought == Sought::Orthotropic(SlipRule::Associated) {
-        text += ", slip_rule = \"associated\"";
+        text += &format!(", {} = {value}", parameter.name);
     }
     text + " }"
 }

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any, Literal, TypeAlias, TypeVar, Union
+from typing import Any, Literal, Optional, TypeAlias, TypeVar, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -20,6 +20,8 @@ Curve: TypeAlias = Union[
 ]
 Motion: TypeAlias = Union[float, Callable[[float], float]]
 Members: TypeAlias = Union[npt.ArrayLike, Callable[[Floats], npt.ArrayLike]]
+
+Values: TypeAlias = dict[str, Union[float, list[float], str, None]]
 
 CURVES = ("ramp", "constant", "smooth")
 
@@ -109,6 +111,20 @@ def number(value: Any, path: str) -> float:
     if not np.isfinite(value):
         raise refuse(path, f"a finite number is needed, not {value!r}")
     return float(value)
+
+
+def optional(value: Any, path: str) -> Optional[float]:
+    """A finite number, or nothing."""
+    return None if value is None else number(value, path)
+
+
+def numbers(value: Any, path: str) -> list[float]:
+    """A list of numbers."""
+    found = array(value, path)
+    if found.ndim != 1:
+        raise refuse(path, f"an array of one dimension is needed, not of {found.ndim}")
+    listed: list[float] = found.astype(np.float64).tolist()
+    return listed
 
 
 def positive(value: Any, path: str) -> float:

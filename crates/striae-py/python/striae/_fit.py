@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Optional, Union
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Union
 
 import numpy as np
 
@@ -12,21 +12,12 @@ from . import _check as check
 from . import _striae as native
 from ._check import Floats
 from ._errors import refuse
-from ._friction import Coulomb, Friction, Nap, Orthotropic, Tabulated, TwoTextures
+from ._friction import Friction
+from ._laws import FITTED, Tabulated
 from ._mesh import frozen
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-#: Laws that can be fitted, and their names in decks.
-LAWS: dict[type[Friction], str] = {
-    Coulomb: "coulomb",
-    Orthotropic: "orthotropic",
-    Nap: "nap",
-    TwoTextures: "two-textures",
-    Tabulated: "tabulated",
-}
-
 
 class Measurements(NamedTuple):
     """Measured friction, as :func:`fit_friction` takes it."""
@@ -82,8 +73,8 @@ class FrictionFit:
         """Fits are made by :func:`fit_friction`."""
         constants, self._deviation, self._freedom = found
         self._friction, self._at_bound, self._level = friction, at_bound, level
-        self._constants = {name.removeprefix("mu_"): value for name, value, _ in constants}
-        self._intervals = {name.removeprefix("mu_"): ends for name, _, ends in constants}
+        self._constants = {name: value for name, value, _ in constants}
+        self._intervals = {name: ends for name, _, ends in constants}
         self._measured = measured
 
     @property
@@ -93,7 +84,7 @@ class FrictionFit:
 
     @property
     def constants(self) -> dict[str, float]:
-        """Constants by the name they have as arguments of the law, such as ``forward``; of a
+        """Constants by the name they have as arguments of the law, such as ``mu_forward``; of a
         table ``mu at 30 degrees`` (no unit)."""
         return dict(self._constants)
 
@@ -146,10 +137,10 @@ def fit_friction(
     forces: Union[Sequence[float], Sequence[Sequence[float]], Floats],
     law: type[Friction] = Tabulated,
     *,
-    slip_rule: Literal["opposing", "associated"] = "opposing",
     theta: Union[float, Sequence[float], Floats] = 0.0,
     spread: Union[float, Sequence[float], Floats] = 1.0,
     level: float = 0.95,
+    **words: str,
 ) -> FrictionFit:
     """Finds the constants of a friction law from measurements, by least squares.
 
@@ -162,28 +153,29 @@ def fit_friction(
     forces: tangential over normal force at each reading: of shape (n,) the part against slip,
         of shape (n, 2) the components of ``-tau/p``, the force that drags the textured
         surface, along ``a`` and a quarter turn from it, as in :class:`SlipSurface` (no unit).
-    law: the class of the law: :class:`Coulomb`, :class:`Orthotropic`, :class:`Nap`,
-        :class:`TwoTextures` or :class:`Tabulated`.
-    slip_rule: that of :class:`Orthotropic`.
+    law: the class of the law, such as :class:`Nap`.
     theta: angle between the textures of two surfaces at each reading (degrees).
     spread: standard deviation of each reading in proportion to that of others (no unit).
     level: probability with which each constant lies in its interval (no unit).
+    words: those of the law, by their names, such as ``slip_rule="associated"`` of
+        :class:`Orthotropic`.
     """
-    if law not in LAWS:
-        known = ", ".join(one.__name__ for one in LAWS)
+    if law not in FITTED:
+        known = ", ".join(one.__name__ for one in FITTED)
         raise TypeError(f"law: one of the classes {known} is needed, not {law!r}")
-    rule = check.word(slip_rule, ("opposing", "associated"), "slip_rule")
     slip = np.radians(_column(angles, None, "angles"))
     against, across = _forces(forces, slip)
     textures = np.radians(_column(theta, len(slip), "theta"))
     spreads = _column(spread, len(slip), "spread")
-    name = "associated" if law is Orthotropic and rule == "associated" else LAWS[law]
     measured = (slip, textures, against, across, spreads)
     probability = check.number(level, "level")
     found, constants, deviation, freedom, at_bound = native.fit_friction(
-        name, measured, probability
+        FITTED[law], list(words.items()), measured, probability
     )
-    friction = law._of(found, _told(law, constants, rule), _recipe(law, constants, rule))
+    stated = found.statement()
+    assert stated is not None, "the law is a declared one"
+    maker: Callable[..., Friction] = law
+    friction = maker(**dict(stated[1]))
     kept = (frozen(slip), frozen(textures), frozen(against), across)
     summary = (constants, deviation, freedom)
     return FrictionFit(friction, summary, at_bound, probability, kept)
@@ -214,32 +206,3 @@ def _forces(forces: Any, slip: Floats) -> tuple[Floats, Optional[Floats]]:
     against = vectors[:, 0] * cosine + vectors[:, 1] * sine
     across = vectors[:, 1] * cosine - vectors[:, 0] * sine
     return np.ascontiguousarray(against), np.ascontiguousarray(across)
-
-
-def _recipe(
-    law: type[Friction],
-    constants: list[tuple[str, float, Optional[tuple[float, float]]]],
-    rule: str,
-) -> tuple[Any, tuple[Any, ...], dict[str, Any]]:
-    """How the law is made of its constants."""
-    values = {name.removeprefix("mu_"): value for name, value, _ in constants}
-    if law is Tabulated:
-        # "mu at 30 degrees"
-        return law, ([float(name.split()[2]) for name in values], list(values.values())), {}
-    named: dict[str, Any] = dict(values)
-    if law is Orthotropic:
-        named["slip_rule"] = rule
-    return law, (), named
-
-
-def _told(
-    law: type[Friction],
-    constants: list[tuple[str, float, Optional[tuple[float, float]]]],
-    rule: str,
-) -> str:
-    if law is Tabulated:
-        return f"Tabulated({len(constants)} angles)"
-    told = [f"{name.removeprefix('mu_')}={value:.4g}" for name, value, _ in constants]
-    if law is Orthotropic:
-        told.append(f"slip_rule={rule!r}")
-    return f"{law.__name__}({', '.join(told)})"
