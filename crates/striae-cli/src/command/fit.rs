@@ -16,7 +16,7 @@ use striae::{
     measurements::{self, AngleFrom, Form, Measured, MeasurementFaults, NamedColumn},
 };
 use striae_law::{
-    declared::{Absent, Kind, Value},
+    declared::{self, Absent, Kind},
     fit::{Fit, Reading, Sought, Standing, fit},
     friction::{Friction, RequiredTextures},
 };
@@ -197,10 +197,12 @@ fn snippet(sought: &Sought, found: &Fit) -> String {
         let value = stated.and_then(|stated| stated.values.get(parameter.name));
         let value = match (value, parameter.absent) {
             (None, _) => continue,
-            (Some(Value::Word(word)), Absent::Word(default)) if *word == default => continue,
-            (Some(Value::Word(word)), _) => format!("\"{word}\""),
-            (Some(Value::Number(number)), _) => rounded(*number),
-            (Some(Value::Numbers(numbers)), _) => {
+            (Some(declared::Value::Word(word)), Absent::Word(default)) if *word == default => {
+                continue;
+            }
+            (Some(declared::Value::Word(word)), _) => format!("\"{word}\""),
+            (Some(declared::Value::Number(number)), _) => rounded(*number),
+            (Some(declared::Value::Numbers(numbers)), _) => {
                 let numbers: Vec<String> = numbers.iter().copied().map(rounded).collect();
                 format!("[{}]", numbers.join(", "))
             }
