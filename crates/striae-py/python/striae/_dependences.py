@@ -98,10 +98,9 @@ class Dependences(Made):
 
         kinetic_over_static: ``c``, coefficients in fast slip without the viscous part over those
             at rest, which the law states (no unit).
-        slip_rate: ``v_s``, length per time (length per time).
+        slip_rate: ``v_s`` (length per time).
         exponent: ``d`` (no unit).
-        viscous: ``k``, the viscous part over the coefficients at rest, time per length (time per
-            length).
+        viscous: ``k``, the viscous part over the coefficients at rest (time per length).
         """
         values: Values = {
             "kinetic_over_static": check.number(kinetic_over_static, "kinetic_over_static"),
@@ -122,7 +121,7 @@ class Dependences(Made):
 
         factor: ``a``: positive for friction that rises with the slip rate, negative for friction
             that falls (no unit).
-        slip_rate: ``v_0``, length per time (length per time).
+        slip_rate: ``v_0`` (length per time).
         limit: slip rate from which on the coefficients are constant; needed where they fall
             (length per time); none by default.
         """
@@ -141,7 +140,7 @@ class Dependences(Made):
         """Returns the law with a dependence ``by_slip_rate``, in place of another one.
         Coefficients times a factor by the slip rate.
 
-        slip_rates: slip rates, length per time, at least two, ascending (length per time).
+        slip_rates: slip rates, at least two, ascending (length per time).
         factors: factor at each slip rate: monotone and smooth between them, constant beyond the
             first and the last (no unit).
         """
@@ -189,8 +188,7 @@ class Dependences(Made):
 
         kinetic_over_static: coefficients in fast slip over those at rest, which the law states (no
             unit).
-        slip_rate: rate of slip, length per time, at which the difference has fallen to 1/e (length
-            per time).
+        slip_rate: rate of slip at which the difference has fallen to 1/e (length per time).
         """
         values: Values = {
             "kinetic_over_static": check.number(kinetic_over_static, "kinetic_over_static"),

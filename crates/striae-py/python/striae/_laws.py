@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Literal, Union
+from typing import Literal, Optional, Union
 
 from . import _check as check
 from ._check import Floats, Values
@@ -114,9 +114,9 @@ class Tabulated(SampledFriction):
     ) -> None:
         """Makes the law.
 
-        angles: directions in which the textured surface slips over the other one: angles in
-            degrees from its texture ``a`` (across the grooves, against a nap), counter-clockwise
-            as seen from outside it; at least three, ascending, less than a turn (degrees).
+        angles: directions in which the textured surface slips over the other one: angles from its
+            texture ``a`` (across the grooves, against a nap), counter-clockwise as seen from
+            outside it; at least three, ascending, less than a turn (degrees).
         mu: coefficient of friction at each angle; monotone and smooth between them (no unit).
         """
         values: Values = {
