@@ -20,7 +20,7 @@ fn value(form: Form) -> Value {
     }
 }
 
-fn are_made<L: Kind + PartialEq + std::fmt::Debug>(laws: &[&'static Declared<L>]) {
+fn are_made<L: Kind>(laws: &[&'static Declared<L>]) {
     for law in laws {
         let parameters = law.parameters.iter();
         let given = parameters.map(|parameter| (parameter.name, value(parameter.form)));
@@ -28,7 +28,7 @@ fn are_made<L: Kind + PartialEq + std::fmt::Debug>(laws: &[&'static Declared<L>]
         let statement = made.statement().expect("a declared law has a statement");
         assert_eq!(statement.law, law.name);
         let again = law.made(&statement.values).expect(law.name);
-        assert_eq!(again, made);
+        assert_eq!(again.statement(), Some(statement));
         let names = laws.iter().filter(|other| other.name == law.name);
         assert_eq!(names.count(), 1, "{}", law.name);
         assert!(law.summary.ends_with('.'), "{}", law.summary);
