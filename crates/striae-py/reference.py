@@ -2,6 +2,7 @@
 ``python crates/striae-py/reference.py``, with the package installed."""
 
 import inspect
+from itertools import takewhile
 from pathlib import Path
 
 import striae as st
@@ -22,9 +23,12 @@ def quoted(thing: object) -> str:
 
 
 def members(of: type) -> list[tuple[str, object]]:
-    """Public members of a class that it defines itself."""
-    own = [(name, member) for name, member in vars(of).items() if not name.startswith("_")]
-    return [(name, member) for name, member in own if says_more(member)]
+    """Public members of a class that it defines itself, or that a base that is not public does."""
+    hidden = takewhile(lambda one: one.__name__ not in st.__all__, of.__mro__[1:])
+    sources = [of, *(one for one in hidden if one.__module__.startswith("striae."))]
+    own = {name: member for one in reversed(sources) for name, member in vars(one).items()}
+    listed = [(name, member) for name, member in own.items() if not name.startswith("_")]
+    return [(name, member) for name, member in listed if says_more(member)]
 
 
 def says_more(member: object) -> bool:

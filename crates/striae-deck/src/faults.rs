@@ -13,6 +13,7 @@
 
 use super::fault::FaultKind;
 use std::{borrow::Cow, fmt, ops::Range};
+use striae_law::Laws;
 
 /// A range of bytes of the deck's text.
 pub type Span = Range<usize>;
@@ -118,13 +119,15 @@ impl fmt::Display for Fault {
     }
 }
 
-/// Faults found so far while a deck is read.
+/// Faults found so far while a deck is read, beside what it is read with.
 pub(crate) struct FaultList<'s> {
     /// The deck, and what it includes.
     sources: Vec<Source<'s>>,
     found: Vec<(Span, FaultKind)>,
     /// Places whose values are missing by a fault elsewhere.
     excused: Vec<Span>,
+    /// Laws that the deck may name.
+    laws: &'s Laws,
 }
 
 /// A text of the deck; spans count from the start of the first one.
@@ -135,7 +138,7 @@ struct Source<'s> {
 }
 
 impl<'s> FaultList<'s> {
-    pub(crate) fn new(file: &'s str, text: &'s str) -> Self {
+    pub(crate) fn new(file: &'s str, text: &'s str, laws: &'s Laws) -> Self {
         Self {
             sources: vec![Source {
                 start: 0,
@@ -144,7 +147,13 @@ impl<'s> FaultList<'s> {
             }],
             found: Vec::new(),
             excused: Vec::new(),
+            laws,
         }
+    }
+
+    /// Laws that the deck may name.
+    pub(crate) fn laws(&self) -> &'s Laws {
+        self.laws
     }
 
     /// Adds the text of an included file; returns where its spans start.

@@ -1,6 +1,8 @@
 //! Forms of the values a deck may contain: what the reader accepts, what it
 //! says it expects, what the JSON schema and the reference list.
 
+use striae_law::declared::Bound;
+
 /// The form of a value.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Form {
@@ -16,6 +18,8 @@ pub(crate) enum Form {
     Varying,
     /// A table of numbers or expressions with any names.
     NamedNumbers,
+    /// The name of a law, beside the keys of its parameters.
+    Law(Open),
     /// One of several words.
     Words(Vec<(&'static str, &'static str)>),
     /// A list, of a fixed length or any.
@@ -26,17 +30,11 @@ pub(crate) enum Form {
     Any(Vec<Form>),
 }
 
-/// A bound of a number.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Bound {
-    /// Larger than.
-    Above(f64),
-    /// Not smaller than.
-    AtLeast(f64),
-    /// Smaller than.
-    Below(f64),
-    /// Not larger than.
-    AtMost(f64),
+/// A kind of laws to which programs may add.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Open {
+    /// Friction.
+    Friction,
 }
 
 /// One composition of a table.
@@ -79,6 +77,7 @@ impl Form {
                     .into()
             }
             Self::NamedNumbers => "a table of numbers".into(),
+            Self::Law(_) => "the name of a law".into(),
             Self::Words(words) => format!("one of {}", ticked(words.iter().map(|(word, _)| *word))),
             Self::List(of, None) => format!("a list of {}", of.plural()),
             Self::List(of, Some(length)) => format!("a list of {length} {}", of.plural()),
@@ -98,6 +97,7 @@ impl Form {
             Self::Whole(least) => format!("whole numbers of at least {least}"),
             Self::Varying => "numbers or functions of `x`, `y`, `z` and `t`".into(),
             Self::NamedNumbers => "tables of numbers".into(),
+            Self::Law(_) => "names of laws".into(),
             Self::Words(words) => {
                 format!("the words {}", ticked(words.iter().map(|(word, _)| *word)))
             }
@@ -108,18 +108,6 @@ impl Form {
                 let forms: Vec<String> = forms.iter().map(Form::plural).collect();
                 forms.join(" or ")
             }
-        }
-    }
-}
-
-impl Bound {
-    /// Returns whether a number respects the bound.
-    pub(crate) fn admits(self, value: f64) -> bool {
-        match self {
-            Self::Above(limit) => value > limit,
-            Self::AtLeast(limit) => value >= limit,
-            Self::Below(limit) => value < limit,
-            Self::AtMost(limit) => value <= limit,
         }
     }
 }

@@ -17,6 +17,7 @@ mod fault;
 mod faults;
 mod form;
 mod include;
+mod law;
 mod lower;
 mod names;
 mod parameters;
@@ -38,7 +39,7 @@ pub use write::{Unstated, write};
 
 use faults::FaultList;
 use std::path::Path;
-use striae_law::friction::Friction;
+use striae_law::{Laws, friction::Friction};
 use striae_output::Output;
 use striae_solve::model::Model;
 use toml::de::DeTable;
@@ -84,8 +85,7 @@ pub fn read(path: &Path) -> Result<Deck, Faults> {
 /// # Errors
 /// As [`read`], and where a setting is of no number of the deck.
 pub fn read_with(path: &Path, settings: &[Setting]) -> Result<Deck, Faults> {
-    let (text, file, base) = text_of(path)?;
-    parse_with(&text, &file, base, settings)
+    Reader::new(&Laws::default(), settings).read(path)
 }
 
 /// Reads a deck from its text.
@@ -108,17 +108,7 @@ pub fn parse_with(
     base: &Path,
     settings: &[Setting],
 ) -> Result<Deck, Faults> {
-    let mut faults = FaultList::new(file, text);
-    let included = include::texts(text, base, &mut faults);
-    let deck = simulation(text, &included, settings, &mut faults)
-        .and_then(|raw| lower::deck(&raw, base, &mut faults));
-    match deck {
-        Some(mut deck) if faults.is_empty() => {
-            deck.notes.extend(settings::note(settings));
-            Ok(deck)
-        }
-        _ => Err(faults.into_faults()),
-    }
+    Reader::new(&Laws::default(), settings).parse(text, file, base)
 }
 
 /// Reads the keys of a `friction` table on their own, without a deck.
@@ -128,7 +118,8 @@ pub fn parse_with(
 /// # Errors
 /// All faults of the keys and what the law refuses.
 pub fn friction(text: &str, file: &str) -> Result<Friction, Faults> {
-    let mut faults = FaultList::new(file, text);
+    let laws = Laws::default();
+    let mut faults = FaultList::new(file, text, &laws);
     let friction = tables::<raw::Friction>(text, &mut faults)
         .and_then(|raw| lower::friction(&raw, &raw.span, &mut faults));
     match friction {
@@ -137,23 +128,88 @@ pub fn friction(text: &str, file: &str) -> Result<Friction, Faults> {
     }
 }
 
-/// Reads parameters of a deck in a file, and other numbers of it by their paths.
+/// Reads decks that may name other laws than those of the library.
 ///
-/// # Errors
-/// All faults of the text, and where there is no such number.
-pub fn numbers(path: &Path, settings: &[Setting], names: &[String]) -> Result<Vec<f64>, Faults> {
-    let (text, file, base) = text_of(path)?;
-    let mut faults = FaultList::new(&file, &text);
-    let included = include::texts(&text, base, &mut faults);
-    let found = computed(&text, &included, settings, &mut faults, |tree, faults| {
-        let names = names.iter();
-        names
-            .map(|name| settings::number(tree, name, faults))
-            .collect()
-    });
-    match found {
-        Some(numbers) if faults.is_empty() => Ok(numbers),
-        _ => Err(faults.into_faults()),
+/// ```
+/// use std::path::Path;
+/// use striae_deck::Reader;
+/// use striae_law::{Laws, declared::{Declared, POSITIVE, Parameter}, friction::Friction};
+///
+/// static SLIPPERY: Declared<Friction> = Declared {
+///     name: "slippery",
+///     summary: "A tenth of Coulomb friction.",
+///     parameters: &[Parameter::number("dry", POSITIVE, "no unit", "Coefficient when dry.")],
+///     build: |values| Friction::coulomb(0.1 * values.number("dry")),
+///     fit: None,
+/// };
+///
+/// let laws = Laws::default().with_friction(&SLIPPERY);
+/// let deck = Reader::new(&laws, &[]).read(Path::new("deck.toml"));
+/// # assert!(deck.is_err(), "there is no such file");
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Reader<'r> {
+    laws: &'r Laws,
+    settings: &'r [Setting],
+}
+
+impl<'r> Reader<'r> {
+    /// Returns a reader with laws that decks may name and numbers that are set from outside.
+    pub fn new(laws: &'r Laws, settings: &'r [Setting]) -> Self {
+        Self { laws, settings }
+    }
+
+    /// Reads a deck from a file; paths in it are relative to its folder.
+    ///
+    /// # Errors
+    /// All faults of the deck; one without position if the file cannot be read.
+    pub fn read(&self, path: &Path) -> Result<Deck, Faults> {
+        let (text, file, base) = text_of(path)?;
+        self.parse(&text, &file, base)
+    }
+
+    /// Reads parameters of a deck in a file, and other numbers of it by their paths.
+    ///
+    /// # Errors
+    /// All faults of the text, and where there is no such number.
+    pub fn numbers(&self, path: &Path, names: &[String]) -> Result<Vec<f64>, Faults> {
+        let (text, file, base) = text_of(path)?;
+        let mut faults = FaultList::new(&file, &text, self.laws);
+        let included = include::texts(&text, base, &mut faults);
+        let found = computed(
+            &text,
+            &included,
+            self.settings,
+            &mut faults,
+            |tree, faults| {
+                let names = names.iter();
+                names
+                    .map(|name| settings::number(tree, name, faults))
+                    .collect()
+            },
+        );
+        match found {
+            Some(numbers) if faults.is_empty() => Ok(numbers),
+            _ => Err(faults.into_faults()),
+        }
+    }
+
+    /// Reads a deck from its text, which faults call `file`; paths in it are relative to `base`.
+    ///
+    /// # Errors
+    /// All faults of the deck.
+    pub fn parse(&self, text: &str, file: &str, base: &Path) -> Result<Deck, Faults> {
+        let mut faults = FaultList::new(file, text, self.laws);
+        let included = include::texts(text, base, &mut faults);
+        let deck = simulation(text, &included, self.settings, &mut faults)
+            .and_then(|raw| lower::deck(&raw, base, &mut faults));
+        match deck {
+            Some(mut deck) if faults.is_empty() => {
+                deck.notes.extend(settings::note(self.settings));
+                Ok(deck)
+            }
+            _ => Err(faults.into_faults()),
+        }
     }
 }
 

@@ -165,6 +165,15 @@ impl TableReader<'_, '_, '_> {
 
     /// The value of a key that may be absent.
     pub(crate) fn optional<T: Read>(&mut self, key: &'static str) -> Option<At<T>> {
+        self.optional_as(key, T::read)
+    }
+
+    /// The value of a key that may be absent, by a function that reads it.
+    pub(crate) fn optional_as<T>(
+        &mut self,
+        key: &'static str,
+        read: impl FnOnce(&Value<'_>, &Place, &mut FaultList<'_>) -> Option<T>,
+    ) -> Option<At<T>> {
         self.known.push(key);
         let value = self.table.get(key)?;
         let place = Place {
@@ -172,19 +181,34 @@ impl TableReader<'_, '_, '_> {
             key,
             in_list: false,
         };
-        let read = T::read(value, &place, self.faults)?;
+        let found = read(value, &place, self.faults)?;
         Some(At {
             span: value.span(),
-            value: read,
+            value: found,
         })
     }
 
     /// The value of a key that must be present.
     pub(crate) fn required<T: Read>(&mut self, key: &'static str) -> Option<At<T>> {
-        if !self.table.contains_key(key) {
-            self.missing.push((key, T::form().expected()));
+        self.required_as(key, &T::form().expected(), T::read)
+    }
+
+    /// The value of a key that must be present, by a function that reads it.
+    pub(crate) fn required_as<T>(
+        &mut self,
+        key: &'static str,
+        expected: &str,
+        read: impl FnOnce(&Value<'_>, &Place, &mut FaultList<'_>) -> Option<T>,
+    ) -> Option<At<T>> {
+        if !self.has(key) {
+            self.missing.push((key, expected.to_owned()));
         }
-        self.optional(key)
+        self.optional_as(key, read)
+    }
+
+    /// Returns whether a key is present.
+    pub(crate) fn has(&self, key: &str) -> bool {
+        self.table.contains_key(key)
     }
 
     /// Finds nothing wrong with any key of these alternatives, as it is not known which applies.
@@ -229,7 +253,7 @@ impl TableReader<'_, '_, '_> {
             .enumerate()
             .filter(|(other, _)| *other != index);
         let shared: Vec<&str> = others.flat_map(|(_, group)| key_names(group)).collect();
-        key_names(&groups[index]).find(|key| self.table.contains_key(*key) && !shared.contains(key))
+        key_names(&groups[index]).find(|key| self.has(key) && !shared.contains(key))
     }
 
     /// Notes unknown keys, and missing ones that none of those is a misspelling of.

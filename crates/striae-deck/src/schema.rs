@@ -1,27 +1,30 @@
 //! The JSON schema and the reference of the deck, from its declarations.
 
 use super::{
-    form::{Alternative, Bound, Form, Key, Need},
+    form::{Alternative, Form, Key, Need},
     raw::Simulation,
     read::{Part, Read},
 };
 use serde_json::{Map, Value, json};
+use striae_law::{Laws, declared::Bound};
 
 /// Texts that are expressions.
 const EXPRESSION: &str = r"^\s*=";
 
 /// The JSON schema (draft 2020-12) that editors complete and check decks with.
-pub fn json_schema() -> Value {
-    let mut schema = form_schema(&Simulation::form());
+pub fn json_schema(laws: &Laws) -> Value {
+    let mut schema = form_schema(&with_laws(&Simulation::form(), laws));
     schema["$schema"] = json!("https://json-schema.org/draft/2020-12/schema");
     schema["title"] = json!("A deck of striae");
     schema
 }
 
 /// The reference of all keys in Markdown.
-pub fn reference() -> String {
+pub fn reference(laws: &Laws) -> String {
+    let whole = Simulation::alternatives();
+    let whole = whole.iter().flat_map(|one| composed(one, laws)).collect();
     let mut text = String::from("# Reference of the deck\n");
-    let mut waiting: Vec<Section> = vec![(String::new(), Simulation::alternatives())];
+    let mut waiting: Vec<Section> = vec![(String::new(), whole)];
     let mut written: Vec<Section> = Vec::new();
     while !waiting.is_empty() {
         let (title, alternatives) = waiting.remove(0);
@@ -42,6 +45,42 @@ pub fn reference() -> String {
         waiting = inner;
     }
     text
+}
+
+/// The form with the keys of all laws where one may be named.
+fn with_laws(form: &Form, laws: &Laws) -> Form {
+    match form {
+        Form::Table(alternatives) => {
+            let all = alternatives.iter().flat_map(|one| composed(one, laws));
+            Form::Table(all.collect())
+        }
+        Form::List(of, length) => Form::List(Box::new(with_laws(of, laws)), *length),
+        Form::Any(forms) => Form::Any(forms.iter().map(|one| with_laws(one, laws)).collect()),
+        form => form.clone(),
+    }
+}
+
+/// The compositions of a table, one for each law where one may be named.
+fn composed(alternative: &Alternative, laws: &Laws) -> Vec<Alternative> {
+    let mut whole = alternative.clone();
+    for key in &mut whole.keys {
+        key.form = with_laws(&key.form, laws);
+    }
+    let mut named = whole.keys.iter().enumerate();
+    let named = named.find_map(|(at, key)| match key.form {
+        Form::Law(open) => Some((at, open)),
+        _ => None,
+    });
+    let Some((at, open)) = named else {
+        return vec![whole];
+    };
+    let of_law = |law: Alternative| {
+        let mut keys = whole.keys.clone();
+        keys.splice(at..=at, law.keys);
+        let doc = format!("{} {}", whole.doc, law.doc);
+        Alternative { doc, keys }
+    };
+    open.alternatives(laws).into_iter().map(of_law).collect()
 }
 
 /// Title and contents of a section of the reference.
@@ -134,6 +173,7 @@ fn form_schema(form: &Form) -> Value {
         Form::NamedNumbers => {
             json!({ "type": "object", "additionalProperties": { "type": ["number", "string"] } })
         }
+        Form::Law(_) => Value::Null,
         Form::Words(words) => {
             json!({ "enum": words.iter().map(|(word, _)| *word).collect::<Vec<_>>() })
         }

@@ -4,10 +4,11 @@ use super::{
     expression::is_expression,
     fault::FaultKind,
     faults::FaultList,
-    form::{Bound, Form},
+    form::Form,
     read::{At, Place, Read, Value, described, unexpected},
 };
 use std::slice;
+use striae_law::declared::Bound;
 use striae_mesh::Vec3;
 use striae_model::nearest;
 use toml::de::DeValue;
@@ -58,10 +59,7 @@ macro_rules! number {
 
         impl Read for $name {
             fn read(value: &Value<'_>, place: &Place, faults: &mut FaultList<'_>) -> Option<Self> {
-                match finite(value.get_ref()) {
-                    Some(number) if Self::BOUNDS.iter().all(|bound| bound.admits(number)) => Some(Self(number)),
-                    _ => unexpected(value, place, faults, &Self::form()),
-                }
+                number(value, place, faults, Self::BOUNDS).map(Self)
             }
 
             fn form() -> Form {
@@ -88,8 +86,6 @@ number! {
     Angle [Bound::Above(0.0), Bound::AtMost(180.0)]
     /// A ratio by which something grows.
     Growth [Bound::AtLeast(1.0)]
-    /// An exponent of a power with a finite slope at zero.
-    Steepness [Bound::AtLeast(1.0)]
     /// A ratio of lateral contraction of a compressible material.
     PoissonsRatio [Bound::Above(-1.0), Bound::Below(0.5)]
 }
@@ -253,6 +249,38 @@ impl Read for OneOrMore {
     fn form() -> Form {
         Form::Any(vec![Text::form(), All::<Text>::form()])
     }
+}
+
+/// A number within bounds.
+pub(crate) fn number(
+    value: &Value<'_>,
+    place: &Place,
+    faults: &mut FaultList<'_>,
+    bounds: &'static [Bound],
+) -> Option<f64> {
+    match finite(value.get_ref()) {
+        Some(number) if bounds.iter().all(|bound| bound.admits(number)) => Some(number),
+        _ => unexpected(value, place, faults, &Form::Number(bounds)),
+    }
+}
+
+/// A list of numbers within bounds.
+pub(crate) fn numbers(
+    value: &Value<'_>,
+    place: &Place,
+    faults: &mut FaultList<'_>,
+    bounds: &'static [Bound],
+) -> Option<Vec<f64>> {
+    let DeValue::Array(array) = value.get_ref() else {
+        let form = Form::List(Box::new(Form::Number(bounds)), None);
+        return unexpected(value, place, faults, &form);
+    };
+    let place = place.element();
+    // All are read, so that all faults are noted.
+    let all = array
+        .iter()
+        .map(|value| number(value, &place, faults, bounds));
+    all.collect::<Vec<_>>().into_iter().collect()
 }
 
 /// A vector from its three components.

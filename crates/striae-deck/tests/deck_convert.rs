@@ -4,7 +4,7 @@
 
 use std::path::PathBuf;
 use striae_deck::{Deck, convert, parse};
-use striae_law::friction::{Decay, Law, RateConstants};
+use striae_law::{declared::Kind, friction::Law};
 use striae_solve::model::{Curve, LoadKind, Procedure, RigidShape};
 
 /// A part of one cube with its sides as sets and surfaces.
@@ -113,14 +113,10 @@ Pad-1.Bottom, Base-1.Top
     assert!(matches!(pair.friction.law(), Law::Coulomb));
     assert_eq!(pair.friction.shear_cap(), Some(5.0));
     assert_eq!(pair.friction.coefficient().at_rest(), 0.4);
-    let decay = Decay {
-        kinetic_over_static: 0.25,
-        slip_rate: 0.5,
-        exponent: 1.0,
-        viscous: 0.0,
-    };
     let by_rate = pair.friction.coefficient().by_rate();
-    assert_eq!(by_rate.constants(), RateConstants::Decay(decay));
+    let stated = by_rate.statement().map(|of| (of.law, of.values.clone()));
+    let decay = [("kinetic_over_static", 0.25), ("slip_rate", 0.5)];
+    assert_eq!(stated, Some(("decay", decay.into())));
     let tie = "*TIE, NAME=glue, POSITION TOLERANCE=0.2\nPad-1.Bottom, Base-1.Top\n";
     let (_, listed, deck) = converted(&model(tie, &STEP.replace("Pad-1.Low, 1, 2\n", "")));
     assert_eq!(listed, Vec::<String>::new());

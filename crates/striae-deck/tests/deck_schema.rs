@@ -7,10 +7,11 @@ use deck::{
     schema::{Verdict, verdict},
 };
 use striae_deck::{json_schema, reference};
+use striae_law::Laws;
 
 #[test]
 fn the_schema_in_docs_is_up_to_date() {
-    let schema = serde_json::to_string_pretty(&json_schema()).unwrap() + "\n";
+    let schema = serde_json::to_string_pretty(&json_schema(&Laws::default())).unwrap() + "\n";
     let written = include_str!("../../../docs/deck.schema.json");
     assert!(
         schema == written,
@@ -22,7 +23,7 @@ fn the_schema_in_docs_is_up_to_date() {
 fn the_reference_in_docs_is_up_to_date() {
     let written = include_str!("../../../docs/deck-reference.md");
     assert!(
-        reference() == written,
+        reference(&Laws::default()) == written,
         "run: striae schema --format markdown > docs/deck-reference.md"
     );
 }
@@ -34,9 +35,9 @@ fn the_schema_accepts_a_good_deck() {
 
 #[test]
 fn every_key_of_the_schema_is_in_the_reference_with_its_meaning() {
-    let reference = reference();
+    let reference = reference(&Laws::default());
     let mut keys = Vec::new();
-    collect(&json_schema(), &mut keys);
+    collect(&json_schema(&Laws::default()), &mut keys);
     assert!(keys.len() > 100, "{}", keys.len());
     for (key, meaning) in keys {
         assert!(!meaning.trim().is_empty(), "`{key}` has no meaning");

@@ -4,5 +4,9 @@
 //! formula and source. [`fit`] finds the constants of friction laws from measurements.
 
 pub mod bulk;
+pub mod declared;
 pub mod fit;
 pub mod friction;
+mod laws;
+
+pub use laws::Laws;

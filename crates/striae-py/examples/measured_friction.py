@@ -28,7 +28,7 @@ for name, angle in [("pulled", 0.0), ("pushed", 180.0)]:
 
 # Sideways nothing is known from these readings: the mean of both is an assumption.
 sideways = 0.5 * (found["pulled"] + found["pushed"])
-spider = st.Nap(forward=found["pushed"], backward=found["pulled"], lateral=sideways)
+spider = st.Nap(mu_forward=found["pushed"], mu_backward=found["pulled"], mu_lateral=sideways)
 
 figure, (left, right) = pyplot.subplots(1, 2, figsize=(11.0, 4.5), layout="constrained")
 snake.plot(left).set_title("belly of a milk snake on cloth (Hu et al. 2009)", fontsize="small")
@@ -42,4 +42,5 @@ right.set_title("claw tufts of a spider on glass (Wolff and Gorb 2013)", fontsiz
 right.legend(fontsize="small")
 right.grid(alpha=0.3)
 figure.savefig("measured_friction.png", dpi=110)
-assert snake.constants["lateral"] > snake.constants["backward"] > snake.constants["forward"]
+forward, backward, lateral = snake.constants.values()
+assert lateral > backward > forward

@@ -10,7 +10,7 @@ rubber = st.NeoHookean(youngs_modulus=1e6, poissons_ratio=0.45)
 # Also st.Mesh(points, {"hexahedron": cells}), and objects of meshio and pyvista.
 pad = st.Body("pad", st.read_mesh(HERE / "pad.msh"), rubber)
 floor = st.Plane("floor", normal=(0, 0, 1), texture=(1, 0, 0))
-nap = st.Nap(forward=0.2, backward=0.6, lateral=0.4)
+nap = st.Nap(mu_forward=0.2, mu_backward=0.6, mu_lateral=0.4)
 model = st.Model(bodies=[pad], rigid=[floor], pairs=[st.Pair(pad["sole"], floor, nap)])
 model.step("press", pad["top"].displace(x=0, y=0, z=-1e-3))
 model.step("drag", pad["top"].displace(x=5e-3), increments=50)

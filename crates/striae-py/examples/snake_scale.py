@@ -12,7 +12,7 @@ belly = st.Body("belly", st.block((0.03, 0.02, 0.01), (6, 4, 2)), skin)
 ground = st.Plane("ground")
 # The row of scales s runs across the body; a = n x s, from root to free edge, points to -x.
 scales = belly["zmin"].textured((0, -1, 0))
-law = st.Nap(forward=0.15, backward=0.35, lateral=0.22)
+law = st.Nap(mu_forward=0.15, mu_backward=0.35, mu_lateral=0.22)
 model = st.Model([belly], [ground], [st.Pair(scales, ground, law)], title="Stroke of a crawler")
 back = belly["zmax"]
 model.step("press", back.displace(x=0, y=0, z=-3e-4), increments=3)

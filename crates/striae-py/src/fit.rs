@@ -4,8 +4,8 @@ use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use striae::{
     law::{
+        declared::Form,
         fit::{Reading, Sought, Standing, fit},
-        friction::SlipRule,
     },
     measurements,
 };
@@ -42,18 +42,32 @@ type Constant = (String, f64, Option<(f64, f64)>);
 /// whether the law is at the bound of what dissipates.
 type Found = (Friction, Vec<Constant>, Option<f64>, usize, bool);
 
-/// Fits a law that is known by its name in decks, `associated` for orthotropic friction by
-/// that rule.
+/// Fits a law that is known by its name in decks, with words of its parameters.
 #[pyfunction]
-pub fn fit_friction(law: &str, measured: Measured<'_>, level: f64) -> PyResult<Found> {
-    let sought = match law {
-        "coulomb" => Sought::Coulomb,
-        "orthotropic" => Sought::Orthotropic(SlipRule::Opposing),
-        "associated" => Sought::Orthotropic(SlipRule::Associated),
-        "nap" => Sought::Nap,
-        "two-textures" => Sought::TwoTextures,
-        _ => Sought::Tabulated,
-    };
+pub fn fit_friction(
+    law: &str,
+    words: Vec<(String, String)>,
+    measured: Measured<'_>,
+    level: f64,
+) -> PyResult<Found> {
+    let needed = || refused("law", "it cannot be fitted");
+    let mut sought = Sought::named(law).ok_or_else(needed)?;
+    for (name, word) in &words {
+        let parameters = sought.law().parameters.iter();
+        let mut known = parameters.filter_map(|parameter| match parameter.form {
+            Form::Word(words) if parameter.name == name => Some(words),
+            _ => None,
+        });
+        let Some(known) = known.next() else {
+            return Err(refused(name, "the law has no such word"));
+        };
+        let Some((word, _)) = known.iter().find(|(known, _)| known == word) else {
+            let known: Vec<String> = known.iter().map(|(word, _)| format!("`{word}`")).collect();
+            let message = format!("one of {} is needed, not {word:?}", known.join(", "));
+            return Err(refused(name, message));
+        };
+        sought = sought.with(name, word);
+    }
     let (slip, theta, against, across, spread) = &measured;
     let [slip, theta, against, spread] = [slip, theta, against, spread].map(|one| one.as_array());
     let across = across.as_ref().map(|across| across.as_array());
@@ -65,7 +79,7 @@ pub fn fit_friction(law: &str, measured: Measured<'_>, level: f64) -> PyResult<F
         spread: spread[i],
     });
     let readings: Vec<Reading> = readings.collect();
-    let found = fit(sought, &readings, level).map_err(|error| refused("fit_friction", error))?;
+    let found = fit(&sought, &readings, level).map_err(|error| refused("fit_friction", error))?;
     let constants = found.constants.iter().map(|one| {
         let interval = one.interval.map(|[low, high]| (low, high));
         (one.name.to_string(), one.value, interval)

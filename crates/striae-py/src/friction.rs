@@ -2,13 +2,14 @@
 
 use numpy::PyArray1;
 use pyo3::prelude::*;
-use striae::law::friction::{
-    self, Decay, FrictionError, Logarithm, PressureDependence, RateDependence, SlipDependence,
-    SlipRule,
+use striae::law::{
+    declared::Kind,
+    friction::{self, BY_PRESSURE, BY_RATE, BY_SLIP, DECAY, FrictionError, LAWS, RequiredTextures},
 };
 
 use crate::{
     array::Array1,
+    declared::{self, Given},
     fault::{model_error, refused},
     own_friction::{Harmonic, Periodic},
 };
@@ -22,41 +23,10 @@ type Samples<'py> = [Array1<'py, f64>; 5];
 
 #[pymethods]
 impl Friction {
+    /// A declared law of values by their names; `class` is what faults call it.
     #[staticmethod]
-    fn frictionless() -> Self {
-        Self(friction::Friction::frictionless())
-    }
-
-    #[staticmethod]
-    fn coulomb(mu: f64) -> PyResult<Self> {
-        made("Coulomb", friction::Friction::coulomb(mu))
-    }
-
-    #[staticmethod]
-    fn two_textures(mu: f64, c_mag: f64, c_ang: f64, c_cen: f64) -> PyResult<Self> {
-        let law = friction::Friction::two_textures(mu, c_mag, c_ang, c_cen);
-        made("TwoTextures", law)
-    }
-
-    #[staticmethod]
-    fn orthotropic(along: f64, across: f64, associated: bool) -> PyResult<Self> {
-        let rule = if associated {
-            SlipRule::Associated
-        } else {
-            SlipRule::Opposing
-        };
-        let law = friction::Friction::orthotropic(along, across, rule);
-        made("Orthotropic", law)
-    }
-
-    #[staticmethod]
-    fn nap(forward: f64, backward: f64, lateral: f64) -> PyResult<Self> {
-        made("Nap", friction::Friction::nap(forward, backward, lateral))
-    }
-
-    #[staticmethod]
-    fn tabulated(radians: Vec<f64>, mu: Vec<f64>) -> PyResult<Self> {
-        made("Tabulated", friction::Friction::tabulated(&radians, &mu))
+    fn declared(class: &str, law: &str, values: Vec<(String, Given)>) -> PyResult<Self> {
+        declared::made(LAWS, law, class, &values).map(Self)
     }
 
     /// User-defined law by the harmonics of its kernel over the angle between the textures. The law
@@ -73,71 +43,26 @@ impl Friction {
         Err(model_error(told.collect()))
     }
 
-    fn with_decay(&self, kinetic_over_static: f64, slip_rate: f64) -> PyResult<Self> {
-        let law = self.0.clone().with_decay(kinetic_over_static, slip_rate);
-        made("decay", law)
-    }
-
-    #[pyo3(signature = (exponent, pressure, floor))]
-    fn with_power_law(&self, exponent: f64, pressure: f64, floor: Option<f64>) -> PyResult<Self> {
-        let law = PressureDependence::power_law(exponent, pressure, floor);
-        self.by_pressure("power law", law)
-    }
-
-    #[pyo3(signature = (pressure, floor))]
-    fn with_adhesion(&self, pressure: f64, floor: Option<f64>) -> PyResult<Self> {
-        self.by_pressure("adhesion", PressureDependence::adhesion(pressure, floor))
-    }
-
-    fn with_saturation(&self, shear_stress: f64) -> PyResult<Self> {
-        let law = PressureDependence::saturation(shear_stress);
-        self.by_pressure("saturation", law)
-    }
-
-    fn with_pressure_table(&self, pressures: Vec<f64>, factors: Vec<f64>) -> PyResult<Self> {
-        let law = PressureDependence::table(&pressures, &factors);
-        self.by_pressure("pressure table", law)
-    }
-
-    fn with_stribeck(
+    /// The law with a declared dependence, by the key that it has in decks.
+    fn with_dependence(
         &self,
-        kinetic_over_static: f64,
-        slip_rate: f64,
-        exponent: f64,
-        viscous: f64,
+        key: &str,
+        form: &str,
+        values: Vec<(String, Given)>,
     ) -> PyResult<Self> {
-        let law = RateDependence::decay(Decay {
-            kinetic_over_static,
-            slip_rate,
-            exponent,
-            viscous,
-        });
-        self.by_rate("Stribeck curve", law)
+        let law = self.0.clone();
+        Ok(Self(match key {
+            "by_pressure" => law.with_pressure(declared::made(BY_PRESSURE, form, form, &values)?),
+            "by_slip_rate" => law.with_rate(declared::made(BY_RATE, form, form, &values)?),
+            "by_accumulated_slip" => law.with_slip(declared::made(BY_SLIP, form, form, &values)?),
+            _ => law.with_rate(declared::made(&[&DECAY], form, form, &values)?),
+        }))
     }
 
-    #[pyo3(signature = (factor, slip_rate, limit))]
-    fn with_logarithm(&self, factor: f64, slip_rate: f64, limit: Option<f64>) -> PyResult<Self> {
-        let law = RateDependence::logarithm(Logarithm {
-            factor,
-            slip_rate,
-            limit,
-        });
-        self.by_rate("logarithm", law)
-    }
-
-    fn with_slip_rate_table(&self, slip_rates: Vec<f64>, factors: Vec<f64>) -> PyResult<Self> {
-        let law = RateDependence::table(&slip_rates, &factors);
-        self.by_rate("slip rate table", law)
-    }
-
-    fn with_running_in(&self, final_over_initial: f64, slip: f64) -> PyResult<Self> {
-        let law = SlipDependence::exponential(final_over_initial, slip);
-        self.by_slip("running in", law)
-    }
-
-    fn with_accumulated_slip_table(&self, slips: Vec<f64>, factors: Vec<f64>) -> PyResult<Self> {
-        let law = SlipDependence::table(&slips, &factors);
-        self.by_slip("accumulated slip table", law)
+    /// The name of the law and the values it was made of; nothing for one of one's own.
+    fn statement(&self) -> Option<(&'static str, Vec<(&'static str, Given)>)> {
+        let stated = self.0.statement()?;
+        Some((stated.law, declared::given(&stated.values)))
     }
 
     /// The radius `varpi` of the slip surface at pressures, slip rates and accumulated slips, all
@@ -156,6 +81,12 @@ impl Friction {
 
     fn with_shear_cap(&self, shear_cap: f64) -> PyResult<Self> {
         made("shear_cap", self.0.clone().with_shear_cap(shear_cap))
+    }
+
+    /// `true` if both surfaces must carry a texture.
+    #[getter]
+    fn of_two_textures(&self) -> bool {
+        self.0.required_textures() == RequiredTextures::Both
     }
 
     /// The largest coefficient at rest, with which the slip surface is scaled.
@@ -177,24 +108,6 @@ impl Friction {
             column(&|sample| sample.traction.y.atan2(sample.traction.x)),
             column(&friction::SlipSample::dissipation),
         ]
-    }
-}
-
-impl Friction {
-    fn by_pressure(
-        &self,
-        what: &str,
-        law: Result<PressureDependence, FrictionError>,
-    ) -> PyResult<Self> {
-        made(what, law.map(|law| self.0.clone().with_pressure(law)))
-    }
-
-    fn by_slip(&self, what: &str, law: Result<SlipDependence, FrictionError>) -> PyResult<Self> {
-        made(what, law.map(|law| self.0.clone().with_slip(law)))
-    }
-
-    fn by_rate(&self, what: &str, law: Result<RateDependence, FrictionError>) -> PyResult<Self> {
-        made(what, law.map(|law| self.0.clone().with_rate(law)))
     }
 }
 

@@ -7,6 +7,7 @@
 
 mod array;
 mod cells;
+mod declared;
 mod everything;
 mod fault;
 mod fit;
@@ -35,6 +36,7 @@ use pyo3::prelude::*;
 mod _striae {
     #[pymodule_export]
     use super::{
+        declared::declared_laws,
         everything::Everything,
         fit::{fit_friction, measurements_of},
         friction::Friction,

@@ -31,7 +31,7 @@ def floor() -> st.Plane:
 @pytest.fixture
 def model(pad: st.Body, floor: st.Plane) -> st.Model:
     """A block pressed onto a grooved floor and dragged across the grooves."""
-    law = st.Orthotropic(along=0.1, across=0.4)
+    law = st.Orthotropic(mu_along=0.1, mu_across=0.4)
     model = st.Model([pad], [floor], [st.Pair(pad["zmin"], floor, law)], title="pad")
     model.step("press", pad["zmax"].displace(x=0, y=0, z=-0.02), increments=2)
     model.step("drag", pad["zmax"].displace(y=0.3), increments=5)

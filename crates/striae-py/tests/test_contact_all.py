@@ -28,7 +28,7 @@ def test_everything_touches_everything(pad: st.Body, lid: st.Body, floor: st.Pla
 
 def test_the_narrowest_law_counts_and_textures_are_painted(pad: st.Body, floor: st.Plane) -> None:
     model = assembly([pad], [floor])
-    law = st.Orthotropic(along=0.1, across=0.4)
+    law = st.Orthotropic(mu_along=0.1, mu_across=0.4)
     model.contact_all(between=[(pad["zmin"], floor, law)])
     assert model.pair_names == ["pad-pad", "pad.rest-floor", "pad.zmin-floor"]
     found = model.friction("pad.zmin-floor").slip_surface()

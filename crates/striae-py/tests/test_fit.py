@@ -12,9 +12,9 @@ import striae as st
 ROOT = Path(__file__).parents[3]
 LAWS: list[tuple[st.Friction, dict[str, float]]] = [
     (st.Coulomb(0.3), {"mu": 0.3}),
-    (st.Orthotropic(0.2, 0.35), {"along": 0.2, "across": 0.35}),
-    (st.Orthotropic(0.2, 0.35, "associated"), {"along": 0.2, "across": 0.35}),
-    (st.Nap(0.11, 0.14, 0.2), {"forward": 0.11, "backward": 0.14, "lateral": 0.2}),
+    (st.Orthotropic(0.2, 0.35), {"mu_along": 0.2, "mu_across": 0.35}),
+    (st.Orthotropic(0.2, 0.35, "associated"), {"mu_along": 0.2, "mu_across": 0.35}),
+    (st.Nap(0.11, 0.14, 0.2), {"mu_forward": 0.11, "mu_backward": 0.14, "mu_lateral": 0.2}),
 ]
 
 
@@ -26,8 +26,8 @@ def test_exact_measurements_give_the_law(
     surface = law.slip_surface(count=24)
     angles = np.degrees(surface.slip_angle)
     forces = surface.friction if directed else surface.dissipation
-    rule: Any = "associated" if "associated" in repr(law) else "opposing"
-    fit = st.fit_friction(angles, forces, type(law), slip_rule=rule)
+    words = {"slip_rule": "associated"} if "associated" in repr(law) else {}
+    fit = st.fit_friction(angles, forces, type(law), **words)
     assert fit.constants == pytest.approx(constants, rel=1e-12)
     assert fit.degrees_of_freedom == 24 * (1 + (directed and "mu" not in constants)) - len(
         constants
@@ -56,7 +56,8 @@ def test_a_table_averages_what_was_measured_at_one_angle() -> None:
     fit = st.fit_friction([0, 0, 120, 240, 240], [0.2, 0.3, 0.5, 0.4, 0.4])
     expected = {"mu at 0 degrees": 0.25, "mu at 120 degrees": 0.5, "mu at 240 degrees": 0.4}
     assert fit.constants == pytest.approx(expected)
-    assert repr(fit) == "<fit of Tabulated(3 angles) to 5 readings>"
+    told = "Tabulated(angles=[0.0, 120.0, 240.0], mu=[0.25, 0.5, 0.4])"
+    assert repr(fit) == f"<fit of {told} to 5 readings>"
     assert fit.degrees_of_freedom == 2 and fit.level == 0.95
 
 
@@ -114,7 +115,8 @@ MEASURED = ROOT / "docs" / "book" / "how-to" / "measurements"
 def test_published_measurements_of_a_snake_are_a_nap() -> None:
     read = st.read_measurements(MEASURED / "snake-skin.csv")
     fit = st.fit_friction(read.angles, read.forces, st.Nap, theta=read.theta, spread=read.spread)
-    assert fit.constants == pytest.approx({"forward": 0.11, "backward": 0.14, "lateral": 0.20})
+    expected = {"mu_forward": 0.11, "mu_backward": 0.14, "mu_lateral": 0.20}
+    assert fit.constants == pytest.approx(expected)
     assert not fit.at_bound and fit.degrees_of_freedom == 1
 
 

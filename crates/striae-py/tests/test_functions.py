@@ -41,7 +41,7 @@ def test_a_polar_curve_is_a_law() -> None:
         exact = [mu(angle) for angle in np.degrees(surface.slip_angle)]
         errors.append(float(np.abs(surface.dissipation - exact).max()))
     assert errors[0] / errors[1] > 3.5 and errors[1] / errors[2] > 3.5
-    assert repr(st.Tabulated.sampled(mu)) == "Tabulated(360 angles)"
+    assert repr(st.Tabulated.sampled(mu)) == "Tabulated(angles=<360 numbers>, mu=<360 numbers>)"
 
 
 def test_what_functions_raise_is_raised(pad: st.Body, floor: st.Plane) -> None:
@@ -73,7 +73,7 @@ def neo_hookean(F: Any) -> tuple[float, Any, Any]:
 def dragged(material: st.Material, threads: Optional[int] = None) -> st.Run:
     pad = st.Body("pad", st.block(divisions=(2, 2, 2)), material)
     floor = st.Plane("floor", texture=(1, 0, 0))
-    law = st.Orthotropic(along=0.1, across=0.4)
+    law = st.Orthotropic(mu_along=0.1, mu_across=0.4)
     model = st.Model([pad], [floor], [st.Pair(pad["zmin"], floor, law)])
     model.step("press", pad["zmax"].displace(x=0, y=0, z=-0.02), increments=2)
     model.step("drag", pad["zmax"].displace(y=0.1), increments=2)

@@ -107,9 +107,9 @@ def test_materials_answer_to_a_deformation(rubber: st.NeoHookean) -> None:
 
 
 def test_slip_surfaces_have_the_coefficients() -> None:
-    surface = st.Orthotropic(along=0.1, across=0.4).slip_surface(count=4)
+    surface = st.Orthotropic(mu_along=0.1, mu_across=0.4).slip_surface(count=4)
     assert np.allclose(np.linalg.norm(surface.friction, axis=1), [0.4, 0.1, 0.4, 0.1])
-    nap = st.Nap(forward=0.2, backward=0.6, lateral=0.4).slip_surface(count=4)
+    nap = st.Nap(mu_forward=0.2, mu_backward=0.6, mu_lateral=0.4).slip_surface(count=4)
     assert np.allclose(nap.friction[::2, 0], [0.6, -0.2])
     assert (nap.dissipation > 0).all()
     table = st.Tabulated(np.arange(0, 360, 90), [0.5, 0.2, 0.3, 0.2]).slip_surface(count=4)
@@ -327,10 +327,10 @@ def test_friction_depends_on_pressure_and_slip_rate() -> None:
     law = st.Coulomb(0.3)
     power = law.with_power_law(0.5, 4.0)
     assert np.allclose(power.bound([1.0, 9.0]), [0.6, 1.8], rtol=1e-14)
-    assert repr(power) == "Coulomb(0.3).with_power_law(exponent=0.5, pressure=4.0)"
+    assert repr(power) == "Coulomb(mu=0.3).with_power_law(exponent=0.5, pressure=4.0)"
     assert np.allclose(law.with_adhesion(2.0).bound(5.0), 2.1, rtol=1e-14)
     assert np.allclose(law.with_saturation(0.2).bound(5.0), 0.2 * np.tanh(7.5), rtol=1e-14)
-    table = law.with_pressure_table([1, 2], [1, 0.9])
+    table = law.with_table_by_pressure([1, 2], [1, 0.9])
     assert np.allclose(table.bound([0.5, 2, 4]), [0.15, 0.54, 1.08], rtol=1e-14)
     rates = np.array([0.0, 1.0, 3.0])
     stribeck = law.with_stribeck(0.5, 2.0, viscous=0.1)
@@ -338,10 +338,10 @@ def test_friction_depends_on_pressure_and_slip_rate() -> None:
     assert np.allclose(stribeck.bound(np.ones(3), rates), 0.3 * factor, rtol=1e-14)
     rising = law.with_logarithm(0.1, 1e-3)
     assert np.allclose(rising.bound(np.full(3, 2.0), rates), 0.6 * (1 + 0.1 * np.log1p(rates / 1e-3)))
-    run_in = law.with_running_in(1.5, 0.2)
+    run_in = law.with_exponential(1.5, 0.2)
     after = 0.6 * (1.5 - 0.5 * np.exp(-0.5))
     assert np.allclose(run_in.bound(2.0, 0.0, 0.1), after, rtol=1e-14)
-    both = law.with_slip_rate_table([0, 1], [1, 0.5]).with_power_law(0.5, 4.0)
+    both = law.with_table_by_slip_rate([0, 1], [1, 0.5]).with_power_law(0.5, 4.0)
     assert np.allclose(both.bound([9.0, 9.0], [0.0, 2.0]), [1.8, 0.9], rtol=1e-14)
 
 
@@ -352,8 +352,8 @@ def test_friction_depends_on_pressure_and_slip_rate() -> None:
         (lambda law: law.with_power_law(0.5, "high"), "pressure: a number is needed"),
         (lambda law: law.with_stribeck(0.5, 1.0, exponent=0.5), "at least 1"),
         (lambda law: law.with_logarithm(-0.5, 1.0), "vanish at the slip rate 6.389056"),
-        (lambda law: law.with_pressure_table([1, 1], [1, 1]), "must ascend"),
-        (lambda law: law.with_slip_rate_table([[1]], [1]), "one dimension"),
+        (lambda law: law.with_table_by_pressure([1, 1], [1, 1]), "must ascend"),
+        (lambda law: law.with_table_by_slip_rate([[1]], [1]), "one dimension"),
         (lambda law: law.bound([1.0, 2.0], [1.0, 2.0, 3.0]), "as many as pressures"),
         (lambda law: law.bound(1.0, -1.0), "must not be negative"),
     ],
@@ -371,8 +371,8 @@ def test_parts_are_copied_and_pickled(model: st.Model, pad: st.Body, floor: st.P
         st.Tabulated([0, 120, 240], [0.1, 0.2, 0.3]),
         st.Coulomb(0.3).with_power_law(2 / 3, 1e5).with_stribeck(0.5, 1.0, viscous=0.1),
         st.Coulomb(0.3).with_adhesion(1e4).with_logarithm(-0.1, 0.1, limit=1.0),
-        st.Coulomb(0.3).with_saturation(1e4).with_slip_rate_table([0, 1], [1, 0.8]),
-        st.Coulomb(0.3).with_pressure_table([0, 1e5], [1, 0.8]).with_running_in(1.5, 0.1),
+        st.Coulomb(0.3).with_saturation(1e4).with_table_by_slip_rate([0, 1], [1, 0.8]),
+        st.Coulomb(0.3).with_table_by_pressure([0, 1e5], [1, 0.8]).with_exponential(1.5, 0.1),
         st.Circumferential((0, 0, 1), turn=3),
         pad["zmin"].textured((1, 0, 0)),
         floor,

@@ -148,7 +148,7 @@ MODEL_ERRORS: list[tuple[Callable[[], Any], str]] = [
     (lambda: st.Coulomb(-0.1), "Coulomb: mu = -0.1 is refused: it must be zero or positive, and finite"),
     (lambda: st.Coulomb("0.3"), "mu: a number is needed, not '0.3'"),  # type: ignore[arg-type]
     (
-        lambda: st.Nap(forward=0.1, backward=2.0, lateral=0.1),
+        lambda: st.Nap(mu_forward=0.1, mu_backward=2.0, mu_lateral=0.1),
         "Nap: friction would create energy: slip at 120.000 degrees from the texture `a` gives a"
         " dissipation -tau . d / p = -0.137500",
     ),

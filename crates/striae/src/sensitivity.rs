@@ -2,7 +2,8 @@
 
 use std::{path::Path, sync::Arc};
 
-use striae_deck::Setting;
+use striae_deck::{Reader, Setting};
+use striae_law::Laws;
 use striae_model::{Model, Validate};
 use striae_output::{
     OutputError,
@@ -100,7 +101,8 @@ pub fn between(
 /// Faults of the deck, and where it has no such number.
 pub fn of_deck(deck: &Path, settings: &[Setting], name: &str) -> Result<Parameter, Error> {
     let names = [name.to_owned()];
-    let value = striae_deck::numbers(deck, settings, &names)?[0];
+    let laws = Laws::default();
+    let value = Reader::new(&laws, settings).numbers(deck, &names)?[0];
     parameter(name, value, |value| {
         let moved = Setting::new(name, value);
         let settings = [settings, &[moved]].concat();

@@ -3,6 +3,8 @@
 //! Prints the law as a table of a deck, the interval of each constant and the scatter of the
 //! readings about the law; see [`striae_law::fit`].
 
+mod sought;
+
 use std::{
     io::Write,
     path::{Path, PathBuf},
@@ -14,49 +16,47 @@ use striae::{
     measurements::{self, AngleFrom, Form, Measured, MeasurementFaults, NamedColumn},
 };
 use striae_law::{
-    fit::{ConstantName, Fit, Reading, Sought, Standing, fit},
-    friction::SlipRule,
+    declared::{self, Absent, Kind},
+    fit::{Fit, Reading, Sought, Standing, fit},
+    friction::{Friction, RequiredTextures},
 };
 
 use super::law::make_folder;
 use crate::failure::Failure;
+use sought::Law;
 
 /// Find the constants of a friction law from measurements.
 ///
-/// MEASUREMENTS is a text file with one reading per line, numbers separated by commas, semicolons
-/// or tabs, below a line with the names of columns: `angle`, the direction in which the textured
-/// surface slips, in degrees from its texture `a` (across the grooves, against a nap; for two
+/// MEASUREMENTS is a text file with commas, semicolons or tabs between numbers, one reading a
+/// line, under a line with the names of columns: `angle`, the direction in which the textured
+/// surface slips, in degrees from its texture `a` (across the grooves, against a nap; of two
 /// textures from the bisector of both; `--angle-from along` counts from the grooves);
-/// `friction`, the ratio of tangential to normal force, or the forces `tangential` and `normal`;
-/// and optionally `direction`, the angle of the force that drags the textured surface, `theta`,
+/// `friction`, tangential over normal force, or the forces `tangential` and `normal`; and where
+/// they are known `direction`, the angle of the force that drags the textured surface, `theta`,
 /// the angle between the textures of two surfaces, and `spread`, the standard deviation of a
-/// reading in proportion to others. Other columns are ignored.
+/// reading in proportion to others. Other columns are not used.
 #[derive(clap::Args)]
 pub struct Arguments {
     /// The file of measurements.
     measurements: PathBuf,
-    /// The law.
-    #[arg(long, value_enum)]
-    law: LawName,
-    /// Slip rule of the orthotropic law.
-    #[arg(long, value_enum, default_value = "opposing")]
-    slip_rule: RuleName,
+    #[command(flatten)]
+    law: Law,
     /// Direction of slip at the angle 0: across the grooves (against a nap), or along them.
     #[arg(long, value_enum, default_value = "across")]
     angle_from: FromName,
-    /// Column of a quantity, by name or number, if the file names it differently.
+    /// A quantity that the file names otherwise, with the name or number of its column.
     #[arg(long, value_name = "QUANTITY=COLUMN", value_delimiter = ',')]
     columns: Vec<NamedColumn>,
-    /// Number of lines to skip at the beginning of the file.
+    /// Lines at the beginning of the file to pass over.
     #[arg(long, value_name = "COUNT", default_value_t = 0)]
     skip_lines: usize,
     /// Probability with which a constant lies in its interval.
     #[arg(long, default_value_t = 0.95)]
     level: f64,
-    /// Plot measurements and law, as .svg, .png and .csv files.
+    /// Draws measurements and law; written as .svg, .png and .csv.
     #[arg(long, value_name = "NAME.svg")]
     plot: Option<PathBuf>,
-    /// Print the result as JSON.
+    /// Print the same as JSON.
     #[arg(long)]
     json: bool,
 }
@@ -66,23 +66,6 @@ pub struct Arguments {
 enum FromName {
     Across,
     Along,
-}
-
-/// Laws that can be fitted, by their names in decks.
-#[derive(Clone, Copy, clap::ValueEnum)]
-enum LawName {
-    Coulomb,
-    Orthotropic,
-    Nap,
-    TwoTextures,
-    Tabulated,
-}
-
-/// Slip rules by their names in decks.
-#[derive(Clone, Copy, clap::ValueEnum)]
-enum RuleName {
-    Opposing,
-    Associated,
 }
 
 impl Arguments {
@@ -98,29 +81,16 @@ impl Arguments {
     }
 
     /// Direction of slip at the angle 0, for laws that depend on it.
-    fn convention(&self) -> Option<&'static str> {
-        match (self.law, self.angle_from) {
-            (LawName::Coulomb, _) => None,
-            (LawName::TwoTextures, FromName::Across) => Some(
+    fn convention(&self, found: &Friction) -> Option<&'static str> {
+        match (found.required_textures(), self.angle_from) {
+            (RequiredTextures::Any, _) => None,
+            (RequiredTextures::Both, FromName::Across) => Some(
                 "angle 0 is slip across the bisector of the two textures; if yours counts from along it, add `--angle-from along`",
             ),
-            (_, FromName::Across) => Some(
+            (RequiredTextures::One, FromName::Across) => Some(
                 "angle 0 is slip across the grooves (against a nap); if yours is along them, add `--angle-from along`",
             ),
             (_, FromName::Along) => Some("angle 0 is slip along the grooves"),
-        }
-    }
-
-    fn sought(&self) -> Sought {
-        match (self.law, self.slip_rule) {
-            (LawName::Coulomb, _) => Sought::Coulomb,
-            (LawName::Orthotropic, RuleName::Opposing) => Sought::Orthotropic(SlipRule::Opposing),
-            (LawName::Orthotropic, RuleName::Associated) => {
-                Sought::Orthotropic(SlipRule::Associated)
-            }
-            (LawName::Nap, _) => Sought::Nap,
-            (LawName::TwoTextures, _) => Sought::TwoTextures,
-            (LawName::Tabulated, _) => Sought::Tabulated,
         }
     }
 }
@@ -131,11 +101,11 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     let text = std::fs::read_to_string(&arguments.measurements)
         .map_err(|cause| MeasurementFaults::unreadable(&file, &cause))?;
     let Measured { readings, notes } = measurements::read(&text, &file, &arguments.form())?;
-    let sought = arguments.sought();
+    let Law(sought) = &arguments.law;
     let found = fit(sought, &readings, arguments.level)?;
     let said = Said {
         deck: snippet(sought, &found),
-        convention: arguments.convention(),
+        convention: arguments.convention(&found.friction),
         notes,
     };
     match arguments.json {
@@ -218,25 +188,26 @@ impl Said {
     }
 }
 
-/// The law as a deck states it.
-fn snippet(sought: Sought, found: &Fit) -> String {
-    let mut text = format!("friction = {{ law = \"{}\"", sought.name());
-    let list = |numbers: Vec<String>| numbers.join(", ");
-    if sought == Sought::Tabulated {
-        let angle = |name: ConstantName| match name {
-            ConstantName::MuAt(angle) => Some(figures::law::degrees(angle).to_string()),
-            ConstantName::Key(_) => None,
+/// The law as a deck states it, but for words that are the default.
+fn snippet(sought: &Sought, found: &Fit) -> String {
+    let law = sought.law();
+    let stated = found.friction.statement();
+    let mut text = format!("friction = {{ law = \"{}\"", law.name);
+    for parameter in law.parameters {
+        let value = stated.and_then(|stated| stated.values.get(parameter.name));
+        let value = match (value, parameter.absent) {
+            (None, _) => continue,
+            (Some(declared::Value::Word(word)), Absent::Word(default)) if *word == default => {
+                continue;
+            }
+            (Some(declared::Value::Word(word)), _) => format!("\"{word}\""),
+            (Some(declared::Value::Number(number)), _) => rounded(*number),
+            (Some(declared::Value::Numbers(numbers)), _) => {
+                let numbers: Vec<String> = numbers.iter().copied().map(rounded).collect();
+                format!("[{}]", numbers.join(", "))
+            }
         };
-        let angles = found.constants.iter().filter_map(|one| angle(one.name));
-        let mu = found.constants.iter().map(|one| rounded(one.value));
-        let (angles, mu) = (list(angles.collect()), list(mu.collect()));
-        return text + &format!(", angles = [{angles}], mu = [{mu}] }}");
-    }
-    for constant in &found.constants {
-        text += &format!(", {} = {}", constant.name, rounded(constant.value));
-    }
-    if sought == Sought::Orthotropic(SlipRule::Associated) {
-        text += ", slip_rule = \"associated\"";
+        text += &format!(", {} = {value}", parameter.name);
     }
     text + " }"
 }
@@ -261,7 +232,7 @@ fn intervals(found: &Fit) -> String {
             Some([low, high]) if low.is_finite() => {
                 format!("   {level} % within {low:.4} .. {high:.4}")
             }
-            Some(_) => "   unbounded by the measurements".to_owned(),
+            Some(_) => "   open: the measurements do not bound it".to_owned(),
             None => String::new(),
         };
         let name = one.name.to_string();
@@ -274,7 +245,7 @@ fn figures_of(number: f64) -> String {
     ((number * 1e6).round() / 1e6).to_string()
 }
 
-/// Quality of the fitted law.
+/// Quality of the law in words.
 fn verdict(found: &Fit, readings: &[Reading]) -> String {
     let mean = readings.iter().map(|reading| reading.against).sum::<f64>() / readings.len() as f64;
     let mut text = format!("  readings: {}", readings.len());
@@ -287,10 +258,11 @@ fn verdict(found: &Fit, readings: &[Reading]) -> String {
                 found.degrees_of_freedom
             );
         }
-        None => text += ", as many as constants: their errors cannot be estimated",
+        None => text += ", as many as constants: there is nothing to tell their errors by",
     }
     if found.standing == Standing::AtBound {
-        text += "\n  the law closest to the readings would create energy; this is the closest one that does not. Check the angles of the readings, or try another law";
+        text += "\n  the law that is closest to the readings would create energy; this is the \
+                 closest one that does not. Look at the angles of the readings, or try another law";
     }
     text
 }

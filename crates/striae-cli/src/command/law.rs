@@ -10,6 +10,7 @@
 //! pressure, slip rate or accumulated slip, it draws them over these, too.
 
 mod coefficient;
+mod constants;
 mod json;
 
 use std::{
@@ -27,11 +28,12 @@ use striae_solve::model::Model;
 
 use crate::{failure::Failure, source::Settings};
 use coefficient::coefficient;
+use constants::Constants;
 
 /// Show the friction of a deck or of constants, as figures and numbers.
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// The deck; every friction law in it is shown.
+    /// The deck, of which every friction is shown.
     #[arg(required_unless_present = "constants")]
     deck: Option<PathBuf>,
     #[command(flatten)]
@@ -44,30 +46,9 @@ pub struct Arguments {
     /// Folder for the figures; by default results/NAME, or results/law without a deck.
     #[arg(short, long, alias = "output")]
     out: Option<PathBuf>,
-    /// Print the numbers as JSON, without figures.
+    /// Print the numbers as JSON, and draw nothing.
     #[arg(long)]
     json: bool,
-}
-
-/// A friction law stated as in a deck, without a deck.
-#[derive(clap::Args)]
-#[group(id = "constants", multiple = false, conflicts_with = "deck")]
-struct Constants {
-    /// For example `mu=0.3`.
-    #[arg(long, value_name = "KEY=VALUE,..")]
-    coulomb: Option<String>,
-    /// For example `mu=0.3,c_mag=0.1,c_ang=0.1,c_cen=0.5`.
-    #[arg(long, value_name = "KEY=VALUE,..")]
-    two_textures: Option<String>,
-    /// For example `mu_along=0.2,mu_across=0.4,slip_rule=associated`.
-    #[arg(long, value_name = "KEY=VALUE,..")]
-    orthotropic: Option<String>,
-    /// For example `mu_forward=0.2,mu_backward=0.4,mu_lateral=0.3`.
-    #[arg(long, value_name = "KEY=VALUE,..")]
-    nap: Option<String>,
-    /// For example `angles=[0,90,180,270],mu=[0.4,0.3,0.2,0.3]`.
-    #[arg(long, value_name = "KEY=VALUE,..")]
-    tabulated: Option<String>,
 }
 
 /// A friction and what to call it.
@@ -79,7 +60,7 @@ struct Named {
 
 /// Draws and prints every friction.
 pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
-    let (frictions, folder) = match (&arguments.deck, arguments.constants.given()) {
+    let (frictions, folder) = match (&arguments.deck, &arguments.constants.0) {
         (Some(path), _) => {
             let folder = Path::new("results").join(case_name(path));
             let read = deck::read_with(path, &arguments.settings.set)?;
@@ -89,7 +70,7 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
             let friction = deck::friction(&in_deck_words(law, constants), &format!("--{law}"))?;
             let named = Named {
                 title: "constants".to_owned(),
-                file: law.to_owned(),
+                file: (*law).to_owned(),
                 friction,
             };
             (vec![named], Path::new("results").join("law"))
@@ -123,23 +104,8 @@ pub fn make_folder(folder: &Path) -> Result<(), Failure> {
     })
 }
 
-impl Constants {
-    /// Name of the law and its constants.
-    fn given(&self) -> Option<(&'static str, &str)> {
-        [
-            ("coulomb", &self.coulomb),
-            ("two-textures", &self.two_textures),
-            ("orthotropic", &self.orthotropic),
-            ("nap", &self.nap),
-            ("tabulated", &self.tabulated),
-        ]
-        .into_iter()
-        .find_map(|(law, constants)| Some((law, constants.as_deref()?)))
-    }
-}
-
-/// `key=value,..` as keys of a `friction` table, with numbers and words in TOML's form; a value in
-/// brackets or braces is a list or a table and stays unchanged.
+/// `key=value,..` as keys of a `friction` table, numbers and words as TOML wants them;
+/// a value in brackets or braces is a list or a table and stays as it is.
 fn in_deck_words(law: &str, constants: &str) -> String {
     let mut inside = 0;
     let between = |character: char| {
@@ -237,7 +203,7 @@ fn table(friction: &Friction, analyses: &[Analysis]) -> String {
     text
 }
 
-/// Confirmation that friction dissipates, with the place where it does least.
+/// Verdict on dissipation, with the place where it is least.
 fn verdict(analyses: &[Analysis]) -> String {
     let Some(first) = analyses.first() else {
         return String::new();

@@ -35,7 +35,10 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     let deck = folder.join("deck.toml");
     fs::write(&deck, TEMPLATE).map_err(|cause| unwritable(&deck, cause))?;
     let schema = folder.join(SCHEMA);
-    let text = format!("{:#}\n", striae_deck::json_schema());
+    let text = format!(
+        "{:#}\n",
+        striae_deck::json_schema(&striae_law::Laws::default())
+    );
     fs::write(&schema, text).map_err(|cause| unwritable(&schema, cause))?;
     let path = deck.display().to_string();
     let is_plain = |letter: char| letter.is_alphanumeric() || "/\\._-:".contains(letter);

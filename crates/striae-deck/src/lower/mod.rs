@@ -9,7 +9,6 @@ pub(crate) mod cards;
 mod condition;
 mod contact;
 mod curve;
-mod dependence;
 mod everything;
 mod fibres;
 mod formulation;

@@ -1,12 +1,13 @@
 //! `[[pair]]` with its friction, and `[[tie]]`.
 
-use super::{ByAccumulatedSlip, ByPressure, BySlipRate, Decay, Texture};
+use super::Texture;
 use crate::{
-    declare::{choice, either, table, words},
+    declare::{either, table, words},
     faults::FaultList,
     form::Form,
+    law::{ByAccumulatedSlip, ByPressure, BySlipRate, Decay, Stated},
     read::{Place, Read, Value, read_table, unexpected},
-    value::{All, Angle, NonNegative, Number, Positive, Text, Truth},
+    value::{Angle, NonNegative, Number, Positive, Text, Truth},
 };
 use toml::de::DeValue;
 
@@ -232,7 +233,7 @@ table! {
     /// Friction between the two sides of a pair.
     Friction {
         /// Law and its constants.
-        include law: FrictionLaw,
+        include law: Stated<striae_law::friction::Friction>,
         /// Largest shear stress that friction can carry. Default: none.
         optional shear_cap: Positive,
         /// Decay of all coefficients with the rate of slip. Default: none.
@@ -244,88 +245,5 @@ table! {
         /// Dependence of all coefficients on the slip that a point of a surface has accumulated
         /// since the start of the run. Default: none.
         optional by_accumulated_slip: ByAccumulatedSlip,
-    }
-}
-
-choice! {
-    /// Friction law.
-    FrictionLaw by law {
-        "frictionless" => Frictionless(Frictionless),
-        "coulomb" => Coulomb(Coulomb),
-        "two-textures" => TwoTextures(TwoTextures),
-        "orthotropic" => Orthotropic(Orthotropic),
-        "nap" => Nap(Nap),
-        "tabulated" => Tabulated(Tabulated),
-    }
-}
-
-table! {
-    /// Frictionless contact.
-    Frictionless {}
-}
-
-table! {
-    /// Isotropic Coulomb friction.
-    Coulomb {
-        /// Coefficient of friction.
-        required mu: NonNegative,
-    }
-}
-
-table! {
-    /// Two textured surfaces.
-    TwoTextures {
-        /// Coefficient of friction.
-        required mu: NonNegative,
-        /// Dependence of the magnitude on the angle between the textures.
-        required c_mag: Number,
-        /// Dependence on the angle between slip and textures.
-        required c_ang: Number,
-        /// Difference between slip with and against the textures.
-        required c_cen: Number,
-    }
-}
-
-table! {
-    /// One textured surface with different friction along and across its texture.
-    Orthotropic {
-        /// Coefficient of friction along the texture.
-        required mu_along: Positive,
-        /// Coefficient of friction across the texture.
-        required mu_across: Positive,
-        /// Direction of slip. Default: `opposing`.
-        optional slip_rule: SlipRule,
-    }
-}
-
-words! {
-    /// Direction of slip.
-    SlipRule {
-        /// Each component of friction opposes that component of slip.
-        Opposing = "opposing",
-        /// Slip is normal to the slip surface.
-        Associated = "associated",
-    }
-}
-
-table! {
-    /// One textured surface with different friction with, against and across its nap.
-    Nap {
-        /// Coefficient of friction of slip with the nap.
-        required mu_forward: Positive,
-        /// Coefficient of friction of slip against the nap.
-        required mu_backward: Positive,
-        /// Coefficient of friction of slip across the nap.
-        required mu_lateral: Positive,
-    }
-}
-
-table! {
-    /// One textured surface with coefficients measured at many angles; friction opposes slip.
-    Tabulated {
-        /// Directions in which the textured surface slips over the other one: angles in degrees from its texture `a` (across the grooves, against a nap), counter-clockwise as seen from outside it; at least three, ascending, less than a turn.
-        required angles: All<Number>,
-        /// Coefficient of friction at each angle; monotone and smooth between them.
-        required mu: All<Positive>,
     }
 }

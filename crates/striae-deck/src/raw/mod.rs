@@ -6,7 +6,6 @@
 mod actuation;
 mod body;
 mod contact;
-mod dependence;
 mod everything;
 mod fibres;
 mod material;
@@ -18,8 +17,8 @@ mod texture;
 
 use super::{declare::table, read::At};
 pub(crate) use {
-    actuation::*, body::*, contact::*, dependence::*, everything::*, fibres::*, material::*,
-    mesh::*, sets::*, settings::*, step::*, texture::*,
+    actuation::*, body::*, contact::*, everything::*, fibres::*, material::*, mesh::*, sets::*,
+    settings::*, step::*, texture::*,
 };
 
 use super::value::{NamedNumbers, OneOrMore, Text};

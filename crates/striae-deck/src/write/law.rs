@@ -5,67 +5,58 @@ use striae_law::{
         Branch, Direction, FibreStiffness, Fibres, Hardening, HardeningForm, Hyperelastic,
         Isochoric, LinesAbout, Material, OgdenTerm, Volumetric,
     },
-    friction::{Friction, Law, SlipRule},
+    declared::{Kind, Statement, Value, Values, degrees},
+    friction::{DECAY, Friction},
 };
 
-use super::{
-    dependence,
-    value::{degrees, list, number, read_as, vector},
-};
+use super::value::{list, number, text, vector};
 
-/// The keys of a friction table in braces; `None` for a user-defined law.
+/// The keys of a friction table in braces; `None` for a law of one's own.
 pub(super) fn friction(friction: &Friction) -> Option<String> {
     Some(format!("{{ {} }}", friction_keys(friction)?))
 }
 
 /// The keys of a friction table.
 pub(super) fn friction_keys(friction: &Friction) -> Option<String> {
-    let law = friction.law();
-    let mu = friction.coefficient().at_rest();
-    let coefficient = |share: f64| read_as(share, share * mu, |found| found / mu);
-    let mut text = format!("law = \"{}\"", law.name());
-    let mut constant = |key: &str, value: f64| text += &format!(", {key} = {}", number(value));
-    match law {
-        Law::Frictionless => {}
-        Law::Coulomb => constant("mu", mu),
-        Law::TwoTextures(two) => {
-            let [c_mag, c_ang, c_cen] = two.constants();
-            constant("mu", mu);
-            constant("c_mag", c_mag);
-            constant("c_ang", c_ang);
-            constant("c_cen", c_cen);
-        }
-        Law::Orthotropic(law) => {
-            let [along, across] = law.shares().map(coefficient);
-            constant("mu_along", along);
-            constant("mu_across", across);
-            text += match law.rule() {
-                SlipRule::Opposing => ", slip_rule = \"opposing\"",
-                SlipRule::Associated => ", slip_rule = \"associated\"",
-            };
-        }
-        Law::Nap(law) => {
-            let [forward, backward, lateral] = law.shares().map(coefficient);
-            constant("mu_forward", forward);
-            constant("mu_backward", backward);
-            constant("mu_lateral", lateral);
-        }
-        Law::Tabulated(table) => {
-            let angles = list(table.points().map(|[angle, _]| number(degrees(angle))));
-            let mu = list(table.points().map(|[_, share]| number(coefficient(share))));
-            text += &format!(", angles = {angles}, mu = {mu}");
-        }
-        Law::Own(_) => return None,
-    }
+    let Statement { law, values } = friction.statement()?;
+    let mut text = format!("law = \"{law}\"{}", stated_values(values));
     if let Some(cap) = friction.shear_cap() {
         text += &format!(", shear_cap = {}", number(cap));
     }
-    text += &dependence::keys(friction.coefficient());
+    let coefficient = friction.coefficient();
+    let dependence = |key: &str, statement: Option<&Statement>| match statement {
+        Some(Statement { law, values }) => {
+            format!(", {key} = {{ form = \"{law}\"{} }}", stated_values(values))
+        }
+        None => String::new(),
+    };
+    text += &dependence("by_pressure", coefficient.by_pressure().statement());
+    text += &match coefficient.by_rate().statement() {
+        Some(Statement { law, values }) if *law == DECAY.name => {
+            let values = stated_values(values);
+            format!(", {law} = {{ {} }}", values.trim_start_matches(", "))
+        }
+        statement => dependence("by_slip_rate", statement),
+    };
+    text += &dependence("by_accumulated_slip", coefficient.by_slip().statement());
     Some(text)
 }
 
-/// Lines of a material without its name; `None` for a law without a table in decks, such as a
-/// user-defined one.
+/// The values of parameters, each after a comma.
+fn stated_values(values: &Values) -> String {
+    let value = |value: &Value| match value {
+        Value::Number(value) => number(*value),
+        Value::Numbers(values) => list(values.iter().copied().map(number)),
+        Value::Word(word) => text(word),
+    };
+    let values = values.iter();
+    values
+        .map(|(key, of)| format!(", {key} = {}", value(of)))
+        .collect()
+}
+
+/// Lines of a material but for its name; `None` for a law that decks have no table for, as of
+/// one's own.
 pub(crate) fn material(of: &Material) -> Option<String> {
     match of {
         Material::NeoHookean {

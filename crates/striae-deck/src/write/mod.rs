@@ -10,7 +10,6 @@
 //! that gives the same bits when it is read, see `value`.
 
 mod actuation;
-mod dependence;
 pub(crate) mod law;
 mod mesh;
 mod output;

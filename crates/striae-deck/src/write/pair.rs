@@ -1,10 +1,11 @@
 //! Pairs: sides, textures, friction; ties.
 
+use striae_law::declared::degrees;
 use striae_solve::model::{ContactSurface, Enforcement, Initial, Pair};
 use striae_surface::texture::{Axis, Lines, Paint};
 
 use super::mesh::lines;
-use super::value::{degrees, number, text, vector};
+use super::value::{number, text, vector};
 use super::{Writer, law};
 
 impl Writer<'_> {

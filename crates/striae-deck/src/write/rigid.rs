@@ -1,5 +1,6 @@
 //! Rigid bodies.
 
+use striae_law::declared::read_as;
 use striae_solve::{
     model::{RigidInertia, RigidShape, RigidSurface},
     solid,
@@ -7,7 +8,7 @@ use striae_solve::{
 
 use super::Writer;
 use super::mesh::{corners, lines};
-use super::value::{direction, list, number, read_as, text, vector};
+use super::value::{direction, list, number, text, vector};
 
 impl Writer<'_> {
     /// A rigid body.

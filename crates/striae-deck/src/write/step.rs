@@ -1,12 +1,13 @@
 //! Steps and what they state.
 
+use striae_law::declared::degrees;
 use striae_solve::model::{
     Displacement, Freedom, Load, LoadExtent, LoadKind, Mover, NodalForce, Procedure, Release,
     RigidMotion, Step, Velocity,
 };
 
 use super::mesh::lines;
-use super::value::{degrees, list, number, text, varying, vector};
+use super::value::{list, number, text, varying, vector};
 use super::{Writer, law};
 
 /// Names of the coordinates of a rigid body.

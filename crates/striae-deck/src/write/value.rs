@@ -3,10 +3,6 @@
 use striae_mesh::Vec3;
 use striae_solve::model::Value;
 
-/// Range, in units in the last place, in which the number that was written is sought around the one
-/// that is computed back.
-const REACH: i64 = 16;
-
 /// A number.
 pub(crate) fn number(value: f64) -> String {
     format!("{value:?}")
@@ -36,18 +32,6 @@ pub(crate) fn vector(value: &Vec3) -> String {
     list([value.x, value.y, value.z].map(number))
 }
 
-/// The number near `about` that `read` turns into `value`; `about` if there is none.
-pub(crate) fn read_as(value: f64, about: f64, read: impl Fn(f64) -> f64) -> f64 {
-    let steps = (0..=REACH).flat_map(|far| [far, -far]);
-    let mut near = steps.map(|far| f64::from_bits(about.to_bits().wrapping_add_signed(far)));
-    near.find(|near| read(*near) == value).unwrap_or(about)
-}
-
-/// Degrees of an angle in radians.
-pub(crate) fn degrees(angle: f64) -> f64 {
-    read_as(angle, angle.to_degrees(), f64::to_radians)
-}
-
 /// A vector of which the unit vector is `unit`.
 pub(crate) fn direction(unit: &Vec3) -> Vec3 {
     let mut multiples = (0..100_000).map(|i| unit * (1.0 + 1e-3 * f64::from(i)));
@@ -58,17 +42,12 @@ pub(crate) fn direction(unit: &Vec3) -> Vec3 {
 
 #[cfg(test)]
 mod tests {
-    use super::{degrees, direction, read_as, text};
+    use super::{direction, text};
     use striae_mesh::Vec3;
 
     #[test]
-    fn numbers_in_other_terms_are_read_as_the_same_bits() {
+    fn directions_are_read_as_the_same_bits() {
         for i in -3600..3600 {
-            let angle = (0.1 * f64::from(i)).to_radians();
-            assert_eq!(degrees(angle).to_radians().to_bits(), angle.to_bits());
-            let share = (1.0 + f64::from(i).abs()) / 1e4 / 0.37;
-            let found = read_as(share, share * 0.37, |mu| mu / 0.37);
-            assert_eq!(found / 0.37, share);
             let unit = Vec3::new(f64::from(i), 77.7, 0.3 * f64::from(i) - 50.0).normalize();
             assert_eq!(direction(&unit).normalize(), unit, "{i}");
         }

@@ -14,7 +14,14 @@ pub enum Verdict {
 /// Verdict of the schema on a deck.
 pub fn verdict(text: &str) -> Verdict {
     match toml::from_str::<Value>(text) {
-        Ok(deck) if fits(&deck, &striae_deck::json_schema()) => Verdict::Accepted,
+        Ok(deck)
+            if fits(
+                &deck,
+                &striae_deck::json_schema(&striae_law::Laws::default()),
+            ) =>
+        {
+            Verdict::Accepted
+        }
         _ => Verdict::Refused,
     }
 }

@@ -3,7 +3,7 @@
 //! A [`Reading`] is friction over pressure, `w = -tau/p`, in one direction of slip `d`: the
 //! part of it that opposes slip, `w . d`, and, where the tester measures it, the part across
 //! slip. In the frame `(e, e_perp)` of the law (the texture `a` of the only textured
-//! surface, or the bisector of `a_a` and `a_b'`), the file `basis.rs` writes every law as
+//! surface, or the bisector of `a_a` and `a_b'`), every law that can be fitted states itself as
 //!
 //! ```text
 //! w(d) = sum_k q_k w_k(d) ,
@@ -20,7 +20,7 @@
 //! a convex problem, for dissipation is linear in `q`. So the law that is found is the
 //! closest one that creates no energy; no start values are needed. Only orthotropic friction
 //! with associated slip has `w_k` that depend on `q`, of degree zero; there the iteration
-//! `q <- argmin` with the last `w_k` is the Gauss-Newton method.
+//! `q <- argmin` with the last `w_k` is the Gauss-Newton method. Of others it ends at once.
 //!
 //! # Confidence
 //!
@@ -31,12 +31,12 @@
 //! s^2 = S/(n - k) ,   cov q = s^2 (J^T W J)^-1 ,   q_k +- t sqrt(cov_kk) ,
 //! ```
 //!
-//! with Student's `t` for `n - k` degrees of freedom at the requested level: exact where the law is
-//! linear in its constants. Quotients have Fieller's interval (1954, "Some problems in interval
-//! estimation", J. R. Stat. Soc. B 16, 175-185), exact too, and without end where the divisor may
-//! be zero. Each interval is about one constant; for all `k` together ask for the level `1 - (1 -
-//! level)/k` (Bonferroni). There are none without degrees of freedom, nor where the bound on
-//! dissipation shapes the law: see [`Standing`].
+//! with Student's `t` for `n - k` degrees of freedom at the level asked for: exact where the
+//! law is linear in its constants. Quotients have Fieller's interval (1954, "Some problems in
+//! interval estimation", J. R. Stat. Soc. B 16, 175-185), exact too, and without end where
+//! the divisor may be zero. Each interval is about one constant; for all `k` together ask for
+//! the level `1 - (1 - level)/k` (Bonferroni). There are none without degrees of freedom, nor
+//! where the bound on dissipation shapes the law: see [`Standing`].
 //!
 //! Angles are in radians, friction has no unit.
 
@@ -55,7 +55,8 @@ use nalgebra::{DMatrix, DVector, Vector2};
 pub use error::FitError;
 pub use reading::Reading;
 
-use crate::friction::{Friction, SlipRule};
+use crate::declared::{self, Absent, Declared, Value, Values};
+use crate::friction::{Basis, Direction, Friction, LAWS};
 use basis::Shape;
 use reading::mean_friction;
 
@@ -67,18 +68,11 @@ const ITERATIONS: usize = 200;
 const SETTLED: f64 = 1e-14;
 
 /// A law whose constants are sought.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sought {
-    /// Isotropic Coulomb friction.
-    Coulomb,
-    /// One textured surface, two coefficients.
-    Orthotropic(SlipRule),
-    /// One textured surface with a nap, three coefficients.
-    Nap,
-    /// Two textured surfaces.
-    TwoTextures,
-    /// One textured surface, a coefficient at each angle that was measured.
-    Tabulated,
+#[derive(Clone, Debug)]
+pub struct Sought {
+    law: &'static Declared<Friction>,
+    basis: &'static Basis,
+    words: Values,
 }
 
 /// A law with the constants that were found.
@@ -95,7 +89,7 @@ pub struct Fit {
     pub degrees_of_freedom: usize,
     /// The level of the intervals, such as 0.95.
     pub level: f64,
-    /// Constraints, besides the measurements, that determined the law.
+    /// Influences that shape the law.
     pub standing: Standing,
 }
 
@@ -106,7 +100,7 @@ pub struct Constant {
     pub name: ConstantName,
     /// Its value.
     pub value: f64,
-    /// The interval in which it lies with the requested probability; its ends may be infinite.
+    /// The interval in which it lies with the probability asked for; its ends may be infinite.
     pub interval: Option<[f64; 2]>,
 }
 
@@ -134,7 +128,7 @@ impl fmt::Display for ConstantName {
     }
 }
 
-/// Constraints that determined a fitted law.
+/// Influences that shape a fitted law.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Standing {
     /// The measurements alone.
@@ -146,27 +140,45 @@ pub enum Standing {
 }
 
 impl Sought {
-    /// The name of the law in decks.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Coulomb => "coulomb",
-            Self::Orthotropic(_) => "orthotropic",
-            Self::Nap => "nap",
-            Self::TwoTextures => "two-textures",
-            Self::Tabulated => "tabulated",
-        }
+    /// Returns a declared law, with the first of the words of each parameter that takes one;
+    /// `None` where measurements do not give its constants.
+    pub fn new(law: &'static Declared<Friction>) -> Option<Self> {
+        let words = law.parameters.iter().filter_map(|one| match one.absent {
+            Absent::Word(word) => Some((one.name, Value::Word(word))),
+            _ => None,
+        });
+        Some(Self {
+            law,
+            basis: law.fit.as_ref()?,
+            words: words.collect(),
+        })
     }
 
-    /// Requirement on measurements for the constants to be determined.
-    fn needed(self) -> &'static str {
-        match self {
-            Self::Coulomb => "a reading",
-            Self::Orthotropic(_) => "slip in two directions, such as along and across the grooves",
-            Self::Nap => "slip in three directions, such as with, against and across the nap",
-            Self::TwoTextures => {
-                "several directions of slip at two or more angles `theta` between the textures"
-            }
-            Self::Tabulated => "readings at three or more angles",
+    /// Returns the law by its name among those that are known, if it can be sought.
+    pub fn named(name: &str) -> Option<Self> {
+        declared::named(LAWS, name).and_then(Self::new)
+    }
+
+    /// Returns the law with another word of a parameter.
+    pub fn with(self, name: &str, word: &'static str) -> Self {
+        let words = self.words.iter().map(|(known, value)| match known == name {
+            true => (known, Value::Word(word)),
+            false => (known, value.clone()),
+        });
+        let words = words.collect();
+        Self { words, ..self }
+    }
+
+    /// Returns the law that is sought.
+    pub fn law(&self) -> &'static Declared<Friction> {
+        self.law
+    }
+
+    /// Readings that determine the constants.
+    fn needed(&self) -> &'static str {
+        match self.basis {
+            Basis::Sum(sum) => sum.needed,
+            Basis::Table { .. } => "readings at three or more angles",
         }
     }
 }
@@ -179,21 +191,22 @@ impl Sought {
 /// let reading = |degrees: f64, mu| Reading::against(degrees.to_radians(), mu);
 /// let readings = [reading(180.0, 0.11), reading(0.0, 0.15), reading(90.0, 0.19),
 ///     reading(180.0, 0.12), reading(0.0, 0.14), reading(-90.0, 0.21)];
-/// let found = fit(Sought::Nap, &readings, 0.95)?;
+/// let nap = Sought::named("nap").expect("the law has a fit");
+/// let found = fit(&nap, &readings, 0.95)?;
 /// assert!((found.constants[0].value - 0.115).abs() < 1e-12); // mu_forward
 /// # Ok::<(), striae_law::fit::FitError>(())
 /// ```
 ///
 /// # Errors
 /// When readings are not finite or do not oppose slip, or do not determine the constants.
-pub fn fit(sought: Sought, readings: &[Reading], level: f64) -> Result<Fit, FitError> {
+pub fn fit(sought: &Sought, readings: &[Reading], level: f64) -> Result<Fit, FitError> {
     if !(level > 0.0 && level < 1.0) {
         return Err(FitError::Level(level));
     }
     let mean = mean_friction(readings)?;
     let shape = Shape::new(sought, readings);
     let undetermined = || FitError::Undetermined {
-        law: sought.name(),
+        law: sought.law.name,
         needed: sought.needed(),
     };
     let (q, free, inverse) = parameters(&shape, readings, mean).ok_or_else(undetermined)?;
@@ -232,14 +245,14 @@ pub fn fit(sought: Sought, readings: &[Reading], level: f64) -> Result<Fit, FitE
 
 /// The parameters, whether no bound holds them, and `(J^T W J)^-1`.
 fn parameters(
-    shape: &Shape,
+    shape: &Shape<'_>,
     readings: &[Reading],
     mean: f64,
 ) -> Option<(DVector<f64>, bool, DMatrix<f64>)> {
     let least = LEAST_DISSIPATION * mean;
     let mut q = DVector::from_element(shape.count(), mean);
     let mut result = None;
-    for _ in 0..if shape.is_linear() { 1 } else { ITERATIONS } {
+    for _ in 0..ITERATIONS {
         let (rows, measured) = equations(shape, readings, &q);
         let bounds = bounds(shape, &q);
         let found = least_squares::least_squares(&rows, &measured, &bounds, least)?;
@@ -255,7 +268,7 @@ fn parameters(
 
 /// Rows and right-hand sides, over the spread.
 fn equations(
-    shape: &Shape,
+    shape: &Shape<'_>,
     readings: &[Reading],
     q: &DVector<f64>,
 ) -> (DMatrix<f64>, DVector<f64>) {
@@ -263,7 +276,8 @@ fn equations(
     let mut measured = Vec::new();
     for (number, reading) in readings.iter().enumerate() {
         let (sine, cosine) = reading.slip.sin_cos();
-        let basis = shape.basis(number, reading.theta, reading.slip, q);
+        let direction = Direction::new(reading.theta, reading.slip);
+        let basis = shape.basis(number, direction, q);
         let mut note = |direction: Vector2<f64>, value: f64| {
             rows.extend(basis.iter().map(|w| w.dot(&direction) / reading.spread));
             measured.push(value / reading.spread);
@@ -281,20 +295,19 @@ fn equations(
 }
 
 /// Rows of the parameters that must not fall below the least dissipation.
-fn bounds(shape: &Shape, q: &DVector<f64>) -> DMatrix<f64> {
+fn bounds(shape: &Shape<'_>, q: &DVector<f64>) -> DMatrix<f64> {
     let rows = shape.judged();
     let mut bounds = DMatrix::zeros(rows.len(), shape.count());
-    for (row, (node, theta, slip)) in rows.into_iter().enumerate() {
-        let d = Vector2::new(slip.cos(), slip.sin());
-        for (k, w) in shape.basis(node, theta, slip, q).iter().enumerate() {
-            bounds[(row, k)] = w.dot(&d);
+    for (row, (node, direction)) in rows.into_iter().enumerate() {
+        for (k, w) in shape.basis(node, direction, q).iter().enumerate() {
+            bounds[(row, k)] = w.dot(&direction.d());
         }
     }
     bounds
 }
 
 /// Sum of the squared residuals, and how many there are.
-fn squares(shape: &Shape, readings: &[Reading], q: &DVector<f64>) -> (f64, usize) {
+fn squares(shape: &Shape<'_>, readings: &[Reading], q: &DVector<f64>) -> (f64, usize) {
     let (rows, measured) = equations(shape, readings, q);
     ((rows * q - &measured).norm_squared(), measured.len())
 }

@@ -7,7 +7,11 @@ use striae_verify::Random;
 
 use super::basis::Shape;
 use super::{ConstantName, Fit, FitError, Reading, Sought, Standing, fit};
-use crate::friction::{Friction, SlipRule, SlipSurface};
+use crate::friction::{Direction, Friction, SlipRule, SlipSurface};
+
+fn sought(name: &str) -> Sought {
+    Sought::named(name).unwrap()
+}
 
 /// Laws that are sought, and one of each.
 fn laws() -> Vec<(Sought, Friction, Vec<f64>)> {
@@ -16,29 +20,29 @@ fn laws() -> Vec<(Sought, Friction, Vec<f64>)> {
     let mu = [0.31, 0.22, 0.14, 0.12, 0.18, 0.3];
     let angles: Vec<f64> = (0..6).map(|i| f64::from(i) * PI / 3.0).collect();
     vec![
-        (Sought::Coulomb, Friction::coulomb(0.3), vec![0.3]),
+        (sought("coulomb"), Friction::coulomb(0.3), vec![0.3]),
         (
-            Sought::Orthotropic(opposing),
+            sought("orthotropic"),
             Friction::orthotropic(0.2, 0.35, opposing),
             vec![0.2, 0.35],
         ),
         (
-            Sought::Orthotropic(associated),
+            sought("orthotropic").with("slip_rule", "associated"),
             Friction::orthotropic(0.2, 0.35, associated),
             vec![0.2, 0.35],
         ),
         (
-            Sought::Nap,
+            sought("nap"),
             Friction::nap(0.11, 0.14, 0.2),
             vec![0.11, 0.14, 0.2],
         ),
         (
-            Sought::TwoTextures,
+            sought("two-textures"),
             Friction::two_textures(two[0], two[1], two[2], two[3]),
             two.to_vec(),
         ),
         (
-            Sought::Tabulated,
+            sought("tabulated"),
             Friction::tabulated(&angles, &mu),
             mu.to_vec(),
         ),
@@ -63,9 +67,9 @@ fn friction_at(friction: &Friction, theta: f64, slip: f64) -> Vector2<f64> {
 
 /// A rosette: slip all around in steps of 15 degrees, twice; of tables in steps of 60 degrees,
 /// eight times. Textures of two surfaces at four angles.
-fn rosette(sought: Sought) -> Vec<[f64; 2]> {
-    let (count, step) = match sought {
-        Sought::Tabulated => (48, PI / 3.0),
+fn rosette(sought: &Sought) -> Vec<[f64; 2]> {
+    let (count, step) = match sought.law().name {
+        "tabulated" => (48, PI / 3.0),
         _ => (48, PI / 12.0),
     };
     let texture = |i: u32| f64::from(i % 4) * PI / 5.0;
@@ -77,7 +81,7 @@ fn rosette(sought: Sought) -> Vec<[f64; 2]> {
 /// The rosette of a law, with noise by `noise(reading, friction)` and, if wanted, friction
 /// across slip.
 fn measured(
-    sought: Sought,
+    sought: &Sought,
     friction: &Friction,
     directed: Option<()>,
     mut noise: impl FnMut(f64) -> (f64, f64),
@@ -113,10 +117,10 @@ fn covered(found: &Fit, constants: &[f64]) -> (Vec<bool>, bool) {
 fn the_sum_is_the_law() {
     let mut random = Random::new(5);
     for (sought, friction, constants) in laws() {
-        let readings = measured(sought, &friction, None, |_| (0.0, 1.0));
-        let shape = Shape::new(sought, &readings);
-        let q = match sought {
-            Sought::TwoTextures => {
+        let readings = measured(&sought, &friction, None, |_| (0.0, 1.0));
+        let shape = Shape::new(&sought, &readings);
+        let q = match sought.law().name {
+            "two-textures" => {
                 let [mu, mag, ang, cen] = constants[..] else {
                     unreachable!()
                 };
@@ -125,11 +129,11 @@ fn the_sum_is_the_law() {
             _ => DVector::from_vec(constants),
         };
         for (number, reading) in readings.iter().enumerate() {
-            let (theta, slip) = match sought {
-                Sought::Tabulated => (reading.theta, reading.slip),
+            let (theta, slip) = match sought.law().name {
+                "tabulated" => (reading.theta, reading.slip),
                 _ => (random.uniform(0.0, PI), random.uniform(0.0, 6.0)),
             };
-            let basis = shape.basis(number, theta, slip, &q);
+            let basis = shape.basis(number, Direction::new(theta, slip), &q);
             let sum: Vector2<f64> = basis.iter().zip(&q).map(|(w, q)| w * *q).sum();
             let exact = friction_at(&friction, theta, slip);
             assert!((sum - exact).norm() < 1e-15, "{sought:?} {sum} {exact}");
@@ -141,14 +145,14 @@ fn the_sum_is_the_law() {
 fn exact_readings_give_the_constants() {
     for (sought, friction, constants) in laws() {
         for directed in [None, Some(())] {
-            let readings = measured(sought, &friction, directed, |_| (0.0, 1.0));
-            let found = fit(sought, &readings, 0.95).unwrap();
+            let readings = measured(&sought, &friction, directed, |_| (0.0, 1.0));
+            let found = fit(&sought, &readings, 0.95).unwrap();
             assert_eq!(found.standing, Standing::Free);
             for (constant, value) in found.constants.iter().zip(&constants) {
                 let error = (constant.value - value).abs();
                 assert!(error < 1e-13, "{sought:?} {directed:?} {constant:?}");
             }
-            let knows = directed.is_some() && Shape::new(sought, &readings).knows_across();
+            let knows = directed.is_some() && Shape::new(&sought, &readings).knows_across();
             let numbers = if knows { 96 } else { 48 };
             assert_eq!(found.degrees_of_freedom, numbers - constants.len());
         }
@@ -169,12 +173,12 @@ fn constants_lie_in_their_intervals_in_95_of_100_rosettes() {
             for seed in 0..100 {
                 let mut random = Random::new(seed);
                 let noise = |_| (size * random.normal(), 1.0);
-                let readings = measured(sought, &friction, directed, noise);
-                let found = fit(sought, &readings, 0.99).unwrap();
+                let readings = measured(&sought, &friction, directed, noise);
+                let found = fit(&sought, &readings, 0.99).unwrap();
                 for (count, inside) in each.iter_mut().zip(covered(&found, &constants).0) {
                     *count += usize::from(inside);
                 }
-                let found = fit(sought, &readings, joint).unwrap();
+                let found = fit(&sought, &readings, joint).unwrap();
                 together += usize::from(covered(&found, &constants).1);
             }
             assert!(each.iter().all(|count| *count >= 95), "{sought:?} {each:?}");
@@ -192,8 +196,8 @@ fn intervals_are_neither_too_wide_nor_too_narrow() {
         for seed in 0..2000 {
             let mut random = Random::new(1000 + seed);
             let noise = |w: f64| (0.05 * w * random.normal(), w);
-            let readings = measured(sought, &friction, None, noise);
-            let found = fit(sought, &readings, 0.95).unwrap();
+            let readings = measured(&sought, &friction, None, noise);
+            let found = fit(&sought, &readings, 0.95).unwrap();
             for (count, inside) in each.iter_mut().zip(covered(&found, &constants).0) {
                 *count += usize::from(inside);
             }
@@ -216,11 +220,12 @@ fn the_closest_admissible_law_is_found() {
             Reading::directed(slip, w.norm(), w.y.atan2(w.x))
         })
         .collect();
-    let found = fit(Sought::Nap, &readings, 0.95).unwrap();
+    let nap = sought("nap");
+    let found = fit(&nap, &readings, 0.95).unwrap();
     assert_eq!(found.standing, Standing::AtBound);
     assert!(found.constants.iter().all(|one| one.interval.is_none()));
     let q = DVector::from_iterator(3, found.constants.iter().map(|one| one.value));
-    let shape = Shape::new(Sought::Nap, &readings);
+    let shape = Shape::new(&nap, &readings);
     let least = super::squares(&shape, &readings, &q).0;
     let mean = readings.iter().map(|one| one.against).sum::<f64>() / 24.0;
     let mut random = Random::new(8);
@@ -249,7 +254,7 @@ fn tables_average_readings_at_one_angle() {
         reading(270.0, 0.4),
         reading(360.0, 0.2),
     ];
-    let found = fit(Sought::Tabulated, &readings, 0.95).unwrap();
+    let found = fit(&sought("tabulated"), &readings, 0.95).unwrap();
     let names: Vec<String> = found.constants.iter().map(|c| c.name.to_string()).collect();
     assert_eq!(
         names,
@@ -269,37 +274,33 @@ fn tables_average_readings_at_one_angle() {
 #[test]
 fn what_measurements_leave_open_is_said() {
     let one = [Reading::against(0.0, 0.2), Reading::against(0.0, 0.3)];
-    for sought in [
-        Sought::Orthotropic(SlipRule::Opposing),
-        Sought::Nap,
-        Sought::TwoTextures,
-    ] {
-        let refused = fit(sought, &one, 0.95).unwrap_err();
+    for name in ["orthotropic", "nap", "two-textures"] {
+        let refused = fit(&sought(name), &one, 0.95).unwrap_err();
         assert!(
             matches!(refused, FitError::Undetermined { .. }),
             "{refused}"
         );
     }
     assert!(matches!(
-        fit(Sought::Coulomb, &[], 0.95),
+        fit(&sought("coulomb"), &[], 0.95),
         Err(FitError::Undetermined { .. })
     ));
     // All textures at one angle leave mu and c_mag open.
     let around = |i: u32| Reading::against(f64::from(i), 0.3 + 0.01 * f64::from(i % 3));
     let readings: Vec<Reading> = (0..12).map(around).collect();
-    let refused = fit(Sought::TwoTextures, &readings, 0.95).unwrap_err();
+    let refused = fit(&sought("two-textures"), &readings, 0.95).unwrap_err();
     assert!(
         refused.to_string().contains("two or more angles `theta`"),
         "{refused}"
     );
     let reversed = [Reading::against(0.0, -0.2)];
-    let refused = fit(Sought::Coulomb, &reversed, 0.95).unwrap_err();
+    let refused = fit(&sought("coulomb"), &reversed, 0.95).unwrap_err();
     assert_eq!(refused, FitError::NotOpposing { mean: -0.2 });
-    let found = fit(Sought::Coulomb, &one[..1], 0.95).unwrap();
+    let found = fit(&sought("coulomb"), &one[..1], 0.95).unwrap();
     assert_eq!(found.constants[0].name, ConstantName::Key("mu"));
     assert_eq!((found.deviation, found.constants[0].interval), (None, None));
     assert_eq!(
-        fit(Sought::Coulomb, &one, 1.0).unwrap_err(),
+        fit(&sought("coulomb"), &one, 1.0).unwrap_err(),
         FitError::Level(1.0)
     );
 }

@@ -35,17 +35,25 @@
 //! Soc. Lond. A 243, 190-205, `m = 2/3` for a single elastic contact; the offset by Derjaguin
 //! (1934), "Molekulartheorie der äußeren Reibung", Z. Phys. 88, 661-675.
 
-use std::fmt;
+use std::{convert::Infallible, fmt};
 
 use num_dual::{Dual64, DualNum};
 use serde::Serialize;
 
 use super::error::{FrictionError, positive};
 use super::monotone::Monotone;
+use crate::declared::{
+    Absent, Declared, Kind, NO_UNIT, NOT_NEGATIVE, POSITIVE, Parameter, Statement, Values,
+};
 
 /// Dependence of coefficients of friction on the pressure.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct PressureDependence(Form);
+#[serde(transparent)]
+pub struct PressureDependence {
+    form: Form,
+    #[serde(skip)]
+    statement: Option<Statement>,
+}
 
 /// Its forms.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -67,36 +75,6 @@ enum Form {
     Table(Monotone),
 }
 
-/// The constants of a dependence on pressure.
-#[derive(Clone, Debug, PartialEq)]
-pub enum PressureConstants<'a> {
-    /// Coefficients do not depend on the pressure.
-    None,
-    /// `(p/p0)^(m-1)`.
-    PowerLaw {
-        /// `m`.
-        exponent: f64,
-        /// `p0`.
-        pressure: f64,
-        /// `p_f`; without effect for `m >= 1`.
-        floor: f64,
-    },
-    /// `(p + p_ad)/p`.
-    Adhesion {
-        /// `p_ad`.
-        pressure: f64,
-        /// `p_f`.
-        floor: f64,
-    },
-    /// `tau tanh(mu p/tau)/(mu p)`.
-    Saturation {
-        /// `tau`.
-        shear_stress: f64,
-    },
-    /// Pressures and factors of a table.
-    Table(&'a [[f64; 2]]),
-}
-
 /// Floor of a power law over its reference pressure, where none is given.
 pub const FLOOR_OF_POWER_LAW: f64 = 1e-3;
 /// Floor of adhesion over its pressure, where none is given.
@@ -109,6 +87,137 @@ const SAMPLES: u32 = 64;
 /// vanished long before.
 const VANISHING: f64 = 1e-90;
 
+/// The forms that can be called by their names.
+pub static BY_PRESSURE: &[&Declared<PressureDependence>] =
+    &[&POWER_LAW, &ADHESION, &SATURATION, &TABLE];
+
+static POWER_LAW: Declared<PressureDependence> = Declared {
+    name: "power-law",
+    summary: "Friction `mu p0 (p/p0)^m`, coefficients `mu (p/p0)^(m - 1)`.",
+    parameters: &[
+        Parameter::number(
+            "exponent",
+            POSITIVE,
+            NO_UNIT,
+            "`m`, below 1 for coefficients that fall with the pressure; 2/3 for one elastic \
+             contact.",
+        ),
+        Parameter::number(
+            "pressure",
+            POSITIVE,
+            "force per area",
+            "`p0`, the pressure at which the coefficients are those that the law states.",
+        ),
+        Parameter::number(
+            "floor",
+            POSITIVE,
+            "force per area",
+            "Pressure below which, for `m` below 1, friction goes to zero along a parabola, with \
+             a finite slope.",
+        )
+        .or(Absent::Computed("p0/1000", |values| {
+            FLOOR_OF_POWER_LAW * values.number("pressure")
+        })),
+    ],
+    build: |values| {
+        Ok(PressureDependence::from(Form::PowerLaw {
+            pressure: positive("pressure", values.number("pressure"))?,
+            exponent: positive("exponent", values.number("exponent"))?,
+            floor: positive("floor", values.number("floor"))?,
+        }))
+    },
+    fit: None,
+};
+
+static ADHESION: Declared<PressureDependence> = Declared {
+    name: "adhesion",
+    summary: "Friction `mu (p + p_ad)` with a pressure by adhesion, Derjaguin's law.",
+    parameters: &[
+        Parameter::number("pressure", POSITIVE, "force per area", "`p_ad`."),
+        Parameter::number(
+            "floor",
+            POSITIVE,
+            "force per area",
+            "Pressure below which friction goes to zero along a parabola, with a finite slope.",
+        )
+        .or(Absent::Computed("p_ad/20", |values| {
+            FLOOR_OF_ADHESION * values.number("pressure")
+        })),
+    ],
+    build: |values| {
+        Ok(PressureDependence::from(Form::Adhesion {
+            pressure: positive("pressure", values.number("pressure"))?,
+            floor: positive("floor", values.number("floor"))?,
+        }))
+    },
+    fit: None,
+};
+
+static SATURATION: Declared<PressureDependence> = Declared {
+    name: "saturation",
+    summary: "Friction `tau tanh(mu p/tau)`, which comes smoothly to a shear stress.",
+    parameters: &[Parameter::number(
+        "shear_stress",
+        POSITIVE,
+        "force per area",
+        "`tau`. The coefficients that the law states are those of low pressures.",
+    )],
+    build: |values| {
+        Ok(PressureDependence::from(Form::Saturation {
+            shear_stress: positive("shear_stress", values.number("shear_stress"))?,
+        }))
+    },
+    fit: None,
+};
+
+static TABLE: Declared<PressureDependence> = Declared {
+    name: "table",
+    summary: "Coefficients times a factor by the pressure.",
+    parameters: &[
+        Parameter::numbers(
+            "pressures",
+            NOT_NEGATIVE,
+            "force per area",
+            "Pressures, at least two, ascending.",
+        ),
+        Parameter::numbers(
+            "factors",
+            POSITIVE,
+            NO_UNIT,
+            "Factor at each pressure: monotone and smooth between them, constant beyond the \
+             first and the last.",
+        ),
+    ],
+    build: |values| {
+        let names = ["pressures", "factors"];
+        let [places, factors] = names.map(|name| values.numbers(name));
+        let table = Monotone::through(places, factors, names)?;
+        Ok(PressureDependence::from(Form::Table(table)))
+    },
+    fit: None,
+};
+
+impl Kind for PressureDependence {
+    type Refusal = FrictionError;
+    type Fit = Infallible;
+
+    fn with_statement(self, statement: Statement) -> Self {
+        let statement = Some(statement);
+        Self { statement, ..self }
+    }
+
+    fn statement(&self) -> Option<&Statement> {
+        self.statement.as_ref()
+    }
+}
+
+impl From<Form> for PressureDependence {
+    fn from(form: Form) -> Self {
+        let statement = None;
+        Self { form, statement }
+    }
+}
+
 impl PressureDependence {
     /// Coefficients that are the stated ones at the pressure `p0` and vary with `(p/p0)^(m-1)`;
     /// below `floor`, by default [`FLOOR_OF_POWER_LAW`] times `p0`, as the module describes.
@@ -120,12 +229,8 @@ impl PressureDependence {
         pressure: f64,
         floor: Option<f64>,
     ) -> Result<Self, FrictionError> {
-        let pressure = positive("pressure", pressure)?;
-        Ok(Self(Form::PowerLaw {
-            exponent: positive("exponent", exponent)?,
-            pressure,
-            floor: positive("floor", floor.unwrap_or(FLOOR_OF_POWER_LAW * pressure))?,
-        }))
+        let values = Values::from([("exponent", exponent), ("pressure", pressure)]);
+        POWER_LAW.made(&values.with_any("floor", floor))
     }
 
     /// Friction that adhesion adds to, `varpi = mu (p + p_ad)`; below `floor`, by default
@@ -134,11 +239,7 @@ impl PressureDependence {
     /// # Errors
     /// When a constant is not positive.
     pub fn adhesion(pressure: f64, floor: Option<f64>) -> Result<Self, FrictionError> {
-        let pressure = positive("pressure", pressure)?;
-        Ok(Self(Form::Adhesion {
-            pressure,
-            floor: positive("floor", floor.unwrap_or(FLOOR_OF_ADHESION * pressure))?,
-        }))
+        ADHESION.made(&Values::from([("pressure", pressure)]).with_any("floor", floor))
     }
 
     /// Friction that approaches the shear stress `tau` smoothly, `varpi = tau tanh(mu p/tau)` at
@@ -147,9 +248,7 @@ impl PressureDependence {
     /// # Errors
     /// When the shear stress is not positive.
     pub fn saturation(shear_stress: f64) -> Result<Self, FrictionError> {
-        Ok(Self(Form::Saturation {
-            shear_stress: positive("shear_stress", shear_stress)?,
-        }))
+        SATURATION.made(&[("shear_stress", shear_stress)].into())
     }
 
     /// Coefficients that are those stated times `factors` at `pressures`: a monotone cubic
@@ -159,32 +258,18 @@ impl PressureDependence {
     /// When there are fewer than two pressures or not as many factors, pressures do not ascend
     /// from zero or above, or a factor is not positive.
     pub fn table(pressures: &[f64], factors: &[f64]) -> Result<Self, FrictionError> {
-        let table = Monotone::through(pressures, factors, ["pressures", "factors"])?;
-        Ok(Self(Form::Table(table)))
+        let values = [("pressures", pressures.into()), ("factors", factors.into())];
+        TABLE.made(&values.into_iter().collect())
     }
 
-    /// Its constants.
-    pub fn constants(&self) -> PressureConstants<'_> {
-        match &self.0 {
-            Form::None => PressureConstants::None,
-            &Form::PowerLaw {
-                exponent,
-                pressure,
-                floor,
-            } => PressureConstants::PowerLaw {
-                exponent,
-                pressure,
-                floor,
-            },
-            &Form::Adhesion { pressure, floor } => PressureConstants::Adhesion { pressure, floor },
-            &Form::Saturation { shear_stress } => PressureConstants::Saturation { shear_stress },
-            Form::Table(table) => PressureConstants::Table(table.points()),
-        }
+    /// Returns whether there is any.
+    pub fn is_some(&self) -> bool {
+        self.form != Form::None
     }
 
     /// Largest coefficient over the stated one.
     pub fn largest_factor(&self) -> f64 {
-        match &self.0 {
+        match &self.form {
             Form::None | Form::Saturation { .. } => 1.0,
             Form::PowerLaw { exponent, .. } if *exponent > 1.0 => f64::INFINITY,
             Form::PowerLaw {
@@ -199,7 +284,7 @@ impl PressureDependence {
 
     /// Pressure up to which the dependence is visible; `None` if there is none.
     pub fn scale(&self) -> Option<f64> {
-        match &self.0 {
+        match &self.form {
             Form::None => None,
             Form::PowerLaw { pressure, .. } => Some(3.0 * pressure),
             Form::Adhesion { pressure, .. } => Some(10.0 * pressure),
@@ -211,7 +296,7 @@ impl PressureDependence {
     /// Pressures between which friction falls as the pressure rises, `P' < 0`, if it does
     /// anywhere: those of the first interval of a table.
     pub fn falling(&self) -> Option<[f64; 2]> {
-        let Form::Table(table) = &self.0 else {
+        let Form::Table(table) = &self.form else {
             return None;
         };
         let points = table.points().windows(2);
@@ -228,7 +313,7 @@ impl PressureDependence {
 
     /// `P(p)` for `p > 0` and the coefficient `mu`.
     pub(super) fn at<D: DualNum<Primitive = f64> + Copy>(&self, mu: f64, p: D) -> D {
-        match &self.0 {
+        match &self.form {
             Form::None => p,
             &Form::PowerLaw {
                 exponent,
@@ -266,7 +351,7 @@ impl PressureDependence {
 impl fmt::Display for PressureDependence {
     /// The formula of `P` with its constants.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match &self.0 {
+        match &self.form {
             Form::None => write!(f, "p"),
             Form::PowerLaw {
                 exponent,

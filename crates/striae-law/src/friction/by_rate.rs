@@ -1,5 +1,7 @@
 //! Coefficients of friction that depend on the slip rate.
 //!
+//! Longer than other files, as each form declares its parameters.
+//!
 //! Coefficients are the stated ones times a function `R` of the slip rate `v >= 0`.
 //!
 //! ```text
@@ -29,17 +31,26 @@
 //! control of machines with friction", Automatica 30, 1083-1138; Ruina (1983), "Slip instability
 //! and state variable friction laws", J. Geophys. Res. 88, 10359-10370.
 
-use std::fmt;
+use std::{convert::Infallible, fmt};
 
 use num_dual::DualNum;
 use serde::Serialize;
 
 use super::error::{FrictionError, finite, not_negative, positive, within};
 use super::monotone::Monotone;
+use crate::declared::{
+    ANY, Absent, Bound, Declared, Kind, NO_UNIT, NOT_NEGATIVE, POSITIVE, Parameter, Statement,
+    Values,
+};
 
 /// Dependence of coefficients of friction on the slip rate.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct RateDependence(Form);
+#[serde(transparent)]
+pub struct RateDependence {
+    form: Form,
+    #[serde(skip)]
+    statement: Option<Statement>,
+}
 
 /// Its forms.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -75,41 +86,98 @@ pub struct Logarithm {
     pub limit: Option<f64>,
 }
 
-/// The constants of a dependence on the slip rate.
-#[derive(Clone, Debug, PartialEq)]
-pub enum RateConstants<'a> {
-    /// Coefficients do not depend on the rate.
-    None,
-    /// A decay.
-    Decay(Decay),
-    /// A logarithm.
-    Logarithm(Logarithm),
-    /// Rates and factors of a table.
-    Table(&'a [[f64; 2]]),
-}
+/// The forms that can be called by their names.
+pub static BY_RATE: &[&Declared<RateDependence>] = &[&STRIBECK, &LOGARITHM, &TABLE];
 
-impl RateDependence {
-    /// Coefficients that decay from those at rest.
-    ///
-    /// # Errors
-    /// When a constant is out of range.
-    pub fn decay(decay: Decay) -> Result<Self, FrictionError> {
-        not_negative("kinetic_over_static", decay.kinetic_over_static)?;
-        positive("slip_rate", decay.slip_rate)?;
-        let steep = decay.exponent >= 1.0;
-        within("exponent", decay.exponent, "at least 1, and finite", steep)?;
-        not_negative("viscous", decay.viscous)?;
-        Ok(Self(Form::Decay(decay)))
-    }
+/// The decay from rest to fast slip, which decks state in a table of its own.
+pub static DECAY: Declared<RateDependence> = Declared {
+    name: "decay",
+    summary: "Decay of friction from rest to fast slip, \
+              `kinetic + (static - kinetic) exp(-rate/slip_rate)`.",
+    parameters: &[
+        Parameter::number(
+            "kinetic_over_static",
+            NOT_NEGATIVE,
+            NO_UNIT,
+            "Coefficients in fast slip over those at rest, which the law states.",
+        ),
+        Parameter::number(
+            "slip_rate",
+            POSITIVE,
+            "length per time",
+            "Rate of slip at which the difference has fallen to 1/e.",
+        ),
+    ],
+    build: |values| {
+        RateDependence::decaying(Decay {
+            kinetic_over_static: values.number("kinetic_over_static"),
+            slip_rate: values.number("slip_rate"),
+            exponent: 1.0,
+            viscous: 0.0,
+        })
+    },
+    fit: None,
+};
 
-    /// Coefficients that go with the logarithm of the rate.
-    ///
-    /// # Errors
-    /// When a constant is out of range, or coefficients fall without a limit or to zero before
-    /// it.
-    pub fn logarithm(law: Logarithm) -> Result<Self, FrictionError> {
-        finite("factor", law.factor)?;
-        positive("slip_rate", law.slip_rate)?;
+static STRIBECK: Declared<RateDependence> = Declared {
+    name: "stribeck",
+    summary: "Coefficients times `c + (1 - c) exp(-(v/v_s)^d) + k v`, Stribeck's curve.",
+    parameters: &[
+        Parameter::number(
+            "kinetic_over_static",
+            NOT_NEGATIVE,
+            NO_UNIT,
+            "`c`, coefficients in fast slip without the viscous part over those at rest, which \
+             the law states.",
+        ),
+        Parameter::number("slip_rate", POSITIVE, "length per time", "`v_s`."),
+        Parameter::number("exponent", &[Bound::AtLeast(1.0)], NO_UNIT, "`d`.")
+            .or(Absent::Number(2.0)),
+        Parameter::number(
+            "viscous",
+            NOT_NEGATIVE,
+            "time per length",
+            "`k`, the viscous part over the coefficients at rest.",
+        )
+        .or(Absent::Number(0.0)),
+    ],
+    build: |values| {
+        RateDependence::decaying(Decay {
+            kinetic_over_static: values.number("kinetic_over_static"),
+            slip_rate: values.number("slip_rate"),
+            exponent: values.number("exponent"),
+            viscous: values.number("viscous"),
+        })
+    },
+    fit: None,
+};
+
+static LOGARITHM: Declared<RateDependence> = Declared {
+    name: "logarithm",
+    summary: "Coefficients times `1 + a ln(1 + v/v_0)`.",
+    parameters: &[
+        Parameter::number(
+            "factor",
+            ANY,
+            NO_UNIT,
+            "`a`: positive for friction that rises with the slip rate, negative for friction \
+             that falls.",
+        ),
+        Parameter::number("slip_rate", POSITIVE, "length per time", "`v_0`."),
+        Parameter::number(
+            "limit",
+            POSITIVE,
+            "length per time",
+            "Slip rate from which on the coefficients are constant; needed where they fall.",
+        )
+        .or(Absent::Nothing),
+    ],
+    build: |values| {
+        let law = Logarithm {
+            factor: finite("factor", values.number("factor"))?,
+            slip_rate: positive("slip_rate", values.number("slip_rate"))?,
+            limit: values.number_if_any("limit"),
+        };
         if let Some(limit) = law.limit {
             positive("limit", limit)?;
         }
@@ -120,7 +188,91 @@ impl RateDependence {
                 rate: law.slip_rate * (-1.0 / law.factor).exp_m1(),
             });
         }
-        Ok(Self(Form::Logarithm(law)))
+        Ok(RateDependence::from(Form::Logarithm(law)))
+    },
+    fit: None,
+};
+
+static TABLE: Declared<RateDependence> = Declared {
+    name: "table",
+    summary: "Coefficients times a factor by the slip rate.",
+    parameters: &[
+        Parameter::numbers(
+            "slip_rates",
+            NOT_NEGATIVE,
+            "length per time",
+            "Slip rates, at least two, ascending.",
+        ),
+        Parameter::numbers(
+            "factors",
+            POSITIVE,
+            NO_UNIT,
+            "Factor at each slip rate: monotone and smooth between them, constant beyond the \
+             first and the last.",
+        ),
+    ],
+    build: |values| {
+        let names = ["slip_rates", "factors"];
+        let [places, factors] = names.map(|name| values.numbers(name));
+        let table = Monotone::through(places, factors, names)?;
+        Ok(RateDependence::from(Form::Table(table)))
+    },
+    fit: None,
+};
+
+impl Kind for RateDependence {
+    type Refusal = FrictionError;
+    type Fit = Infallible;
+
+    fn with_statement(self, statement: Statement) -> Self {
+        let statement = Some(statement);
+        Self { statement, ..self }
+    }
+
+    fn statement(&self) -> Option<&Statement> {
+        self.statement.as_ref()
+    }
+}
+
+impl From<Form> for RateDependence {
+    fn from(form: Form) -> Self {
+        let statement = None;
+        Self { form, statement }
+    }
+}
+
+impl RateDependence {
+    /// Coefficients that decay from those at rest.
+    ///
+    /// # Errors
+    /// When a constant is out of range.
+    pub fn decay(decay: Decay) -> Result<Self, FrictionError> {
+        let values = [
+            ("kinetic_over_static", decay.kinetic_over_static),
+            ("slip_rate", decay.slip_rate),
+            ("exponent", decay.exponent),
+            ("viscous", decay.viscous),
+        ];
+        STRIBECK.made(&values.into())
+    }
+
+    fn decaying(decay: Decay) -> Result<Self, FrictionError> {
+        not_negative("kinetic_over_static", decay.kinetic_over_static)?;
+        positive("slip_rate", decay.slip_rate)?;
+        let steep = decay.exponent >= 1.0;
+        within("exponent", decay.exponent, "at least 1, and finite", steep)?;
+        not_negative("viscous", decay.viscous)?;
+        Ok(Self::from(Form::Decay(decay)))
+    }
+
+    /// Coefficients that go with the logarithm of the rate.
+    ///
+    /// # Errors
+    /// When a constant is out of range, or coefficients fall without a limit or to zero before
+    /// it.
+    pub fn logarithm(law: Logarithm) -> Result<Self, FrictionError> {
+        let values = Values::from([("factor", law.factor), ("slip_rate", law.slip_rate)]);
+        LOGARITHM.made(&values.with_any("limit", law.limit))
     }
 
     /// Coefficients that are those stated times `factors` at `rates`: a monotone cubic between
@@ -130,28 +282,18 @@ impl RateDependence {
     /// When there are fewer than two rates or not as many factors, rates do not ascend from zero
     /// or above, or a factor is not positive.
     pub fn table(rates: &[f64], factors: &[f64]) -> Result<Self, FrictionError> {
-        let table = Monotone::through(rates, factors, ["slip_rates", "factors"])?;
-        Ok(Self(Form::Table(table)))
-    }
-
-    /// Its constants.
-    pub fn constants(&self) -> RateConstants<'_> {
-        match &self.0 {
-            Form::None => RateConstants::None,
-            Form::Decay(decay) => RateConstants::Decay(*decay),
-            Form::Logarithm(law) => RateConstants::Logarithm(*law),
-            Form::Table(table) => RateConstants::Table(table.points()),
-        }
+        let values = [("slip_rates", rates.into()), ("factors", factors.into())];
+        TABLE.made(&values.into_iter().collect())
     }
 
     /// Returns whether there is any.
     pub fn is_some(&self) -> bool {
-        self.0 != Form::None
+        self.form != Form::None
     }
 
     /// Rate up to which the dependence is visible; `None` if there is none.
     pub fn scale(&self) -> Option<f64> {
-        match &self.0 {
+        match &self.form {
             Form::None => None,
             Form::Decay(decay) => Some(5.0 * decay.slip_rate),
             Form::Logarithm(law) => Some(law.limit.map_or(100.0 * law.slip_rate, |v| 1.1 * v)),
@@ -161,7 +303,7 @@ impl RateDependence {
 
     /// The rate at which friction has fallen most, `None` where it falls nowhere.
     pub fn weakest_rate(&self) -> Option<f64> {
-        match &self.0 {
+        match &self.form {
             Form::None => None,
             Form::Decay(decay) => decay.weakest_rate(),
             Form::Logarithm(law) => law.limit.filter(|_| law.factor < 0.0),
@@ -178,7 +320,7 @@ impl RateDependence {
 
     /// Largest coefficient over that at rest.
     pub fn largest_over_rest(&self) -> f64 {
-        match &self.0 {
+        match &self.form {
             Form::None => 1.0,
             Form::Decay(decay) if decay.viscous > 0.0 => f64::INFINITY,
             Form::Decay(decay) => decay.kinetic_over_static.max(1.0),
@@ -196,7 +338,7 @@ impl RateDependence {
     /// The coefficient at a rate, of the stated one `mu`.
     pub(super) fn of<D: DualNum<Primitive = f64> + Copy>(&self, mu: f64, rate: D) -> D {
         let mu_s = D::from(mu);
-        match &self.0 {
+        match &self.form {
             Form::None => mu_s,
             Form::Decay(decay) => decay.of(mu_s, rate),
             Form::Logarithm(law) => mu_s * law.at(rate),
@@ -208,7 +350,7 @@ impl RateDependence {
 impl fmt::Display for RateDependence {
     /// The formula of `R` with its constants.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match &self.0 {
+        match &self.form {
             Form::None => write!(f, "1"),
             Form::Decay(decay) => {
                 let Decay {

@@ -14,16 +14,22 @@
 //!
 //! Slip dissipates `varpi |du|` times what the law of the directions does, so `W > 0` suffices.
 
-use std::fmt;
+use std::{convert::Infallible, fmt};
 
 use serde::Serialize;
 
 use super::error::{FrictionError, positive};
 use super::monotone::Monotone;
+use crate::declared::{Declared, Kind, NO_UNIT, NOT_NEGATIVE, POSITIVE, Parameter, Statement};
 
 /// Dependence of coefficients of friction on the accumulated slip.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct SlipDependence(Form);
+#[serde(transparent)]
+pub struct SlipDependence {
+    form: Form,
+    #[serde(skip)]
+    statement: Option<Statement>,
+}
 
 /// Its forms.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -37,20 +43,84 @@ enum Form {
     Table(Monotone),
 }
 
-/// The constants of a dependence on the accumulated slip.
-#[derive(Clone, Debug, PartialEq)]
-pub enum SlipConstants<'a> {
-    /// Coefficients do not depend on it.
-    None,
-    /// `w + (1 - w) exp(-s/s_0)`.
-    Exponential {
-        /// `w`.
-        final_over_initial: f64,
-        /// `s_0`.
-        slip: f64,
+/// The forms that can be called by their names.
+pub static BY_SLIP: &[&Declared<SlipDependence>] = &[&EXPONENTIAL, &TABLE];
+
+static EXPONENTIAL: Declared<SlipDependence> = Declared {
+    name: "exponential",
+    summary: "Coefficients times `w + (1 - w) exp(-s/s_0)`, as a surface runs in.",
+    parameters: &[
+        Parameter::number(
+            "final_over_initial",
+            POSITIVE,
+            NO_UNIT,
+            "`w`, coefficients after long slip over those at the start, which the law states.",
+        ),
+        Parameter::number(
+            "slip",
+            POSITIVE,
+            "length",
+            "`s_0`, the slip after which the difference has fallen to 1/e.",
+        ),
+    ],
+    build: |values| {
+        Ok(SlipDependence::from(Form::Exponential {
+            final_over_initial: positive(
+                "final_over_initial",
+                values.number("final_over_initial"),
+            )?,
+            slip: positive("slip", values.number("slip"))?,
+        }))
     },
-    /// Accumulated slips and factors of a table.
-    Table(&'a [[f64; 2]]),
+    fit: None,
+};
+
+static TABLE: Declared<SlipDependence> = Declared {
+    name: "table",
+    summary: "Coefficients times a factor by the accumulated slip.",
+    parameters: &[
+        Parameter::numbers(
+            "slips",
+            NOT_NEGATIVE,
+            "length",
+            "Accumulated slips, at least two, ascending.",
+        ),
+        Parameter::numbers(
+            "factors",
+            POSITIVE,
+            NO_UNIT,
+            "Factor after each slip: monotone and smooth between them, constant beyond the \
+             first and the last.",
+        ),
+    ],
+    build: |values| {
+        let names = ["slips", "factors"];
+        let [places, factors] = names.map(|name| values.numbers(name));
+        let table = Monotone::through(places, factors, names)?;
+        Ok(SlipDependence::from(Form::Table(table)))
+    },
+    fit: None,
+};
+
+impl Kind for SlipDependence {
+    type Refusal = FrictionError;
+    type Fit = Infallible;
+
+    fn with_statement(self, statement: Statement) -> Self {
+        let statement = Some(statement);
+        Self { statement, ..self }
+    }
+
+    fn statement(&self) -> Option<&Statement> {
+        self.statement.as_ref()
+    }
+}
+
+impl From<Form> for SlipDependence {
+    fn from(form: Form) -> Self {
+        let statement = None;
+        Self { form, statement }
+    }
 }
 
 impl SlipDependence {
@@ -60,10 +130,8 @@ impl SlipDependence {
     /// # Errors
     /// When a constant is not positive.
     pub fn exponential(final_over_initial: f64, slip: f64) -> Result<Self, FrictionError> {
-        Ok(Self(Form::Exponential {
-            final_over_initial: positive("final_over_initial", final_over_initial)?,
-            slip: positive("slip", slip)?,
-        }))
+        let values = [("final_over_initial", final_over_initial), ("slip", slip)];
+        EXPONENTIAL.made(&values.into())
     }
 
     /// Coefficients that are those stated times `factors` at accumulated `slips`: a monotone
@@ -73,28 +141,18 @@ impl SlipDependence {
     /// When there are fewer than two slips or not as many factors, slips do not ascend from zero
     /// or above, or a factor is not positive.
     pub fn table(slips: &[f64], factors: &[f64]) -> Result<Self, FrictionError> {
-        let table = Monotone::through(slips, factors, ["slips", "factors"])?;
-        Ok(Self(Form::Table(table)))
+        let values = [("slips", slips.into()), ("factors", factors.into())];
+        TABLE.made(&values.into_iter().collect())
     }
 
-    /// Its constants.
-    pub fn constants(&self) -> SlipConstants<'_> {
-        match &self.0 {
-            Form::None => SlipConstants::None,
-            &Form::Exponential {
-                final_over_initial,
-                slip,
-            } => SlipConstants::Exponential {
-                final_over_initial,
-                slip,
-            },
-            Form::Table(table) => SlipConstants::Table(table.points()),
-        }
+    /// Returns whether there is any.
+    pub fn is_some(&self) -> bool {
+        self.form != Form::None
     }
 
     /// Accumulated slip up to which the dependence is visible; `None` if there is none.
     pub fn scale(&self) -> Option<f64> {
-        match &self.0 {
+        match &self.form {
             Form::None => None,
             Form::Exponential { slip, .. } => Some(5.0 * slip),
             Form::Table(table) => Some(1.1 * table.last()),
@@ -103,7 +161,7 @@ impl SlipDependence {
 
     /// Largest coefficient over the stated one.
     pub fn largest_factor(&self) -> f64 {
-        match &self.0 {
+        match &self.form {
             Form::None => 1.0,
             Form::Exponential {
                 final_over_initial, ..
@@ -114,7 +172,7 @@ impl SlipDependence {
 
     /// `W(s)`.
     pub fn at(&self, slip: f64) -> f64 {
-        match &self.0 {
+        match &self.form {
             Form::None => 1.0,
             Form::Exponential {
                 final_over_initial,
@@ -128,7 +186,7 @@ impl SlipDependence {
 impl fmt::Display for SlipDependence {
     /// The formula of `W` with its constants.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match &self.0 {
+        match &self.form {
             Form::None => write!(f, "1"),
             Form::Exponential {
                 final_over_initial: w,

@@ -12,6 +12,7 @@
 //! surface that carries the point.
 
 mod analysis;
+mod basis;
 mod battery;
 mod by_pressure;
 mod by_rate;
@@ -38,12 +39,11 @@ mod two_textures;
 mod tests;
 
 pub use analysis::Analysis;
+pub use basis::{Basis, Direction, Meaning, Sum};
 pub use battery::{Violation, battery};
-pub use by_pressure::{
-    FLOOR_OF_ADHESION, FLOOR_OF_POWER_LAW, PressureConstants, PressureDependence,
-};
-pub use by_rate::{Decay, Logarithm, RateConstants, RateDependence};
-pub use by_slip::{SlipConstants, SlipDependence};
+pub use by_pressure::{BY_PRESSURE, FLOOR_OF_ADHESION, FLOOR_OF_POWER_LAW, PressureDependence};
+pub use by_rate::{BY_RATE, DECAY, Decay, Logarithm, RateDependence};
+pub use by_slip::{BY_SLIP, SlipDependence};
 pub use coefficient::Coefficient;
 pub use ellipse::Ellipse;
 pub use error::FrictionError;
@@ -60,9 +60,20 @@ pub use star::Star;
 pub use tabulated::{Radial, Tabulated};
 pub use two_textures::{LeastDissipation, TwoTextures};
 
+use crate::declared::{Declared, Kind, Statement};
 use error::positive;
 use nalgebra::Vector3;
 use num_dual::DualNum;
+
+/// The laws that decks, the program and the Python package know by name.
+pub static LAWS: &[&Declared<Friction>] = &[
+    &coulomb::FRICTIONLESS,
+    &coulomb::COULOMB,
+    &two_textures::TWO_TEXTURES,
+    &orthotropic::ORTHOTROPIC,
+    &nap::NAP,
+    &tabulated::TABULATED,
+];
 
 /// Friction between two surfaces.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -70,6 +81,22 @@ pub struct Friction {
     law: Law,
     coefficient: Coefficient,
     shear_cap: Option<f64>,
+    #[serde(skip)]
+    statement: Option<Statement>,
+}
+
+impl Kind for Friction {
+    type Refusal = FrictionError;
+    type Fit = Basis;
+
+    fn with_statement(self, statement: Statement) -> Self {
+        let statement = Some(statement);
+        Self { statement, ..self }
+    }
+
+    fn statement(&self) -> Option<&Statement> {
+        self.statement.as_ref()
+    }
 }
 
 /// Shape of the slip surface, and slip rule.
@@ -118,75 +145,6 @@ pub enum RequiredTextures {
 }
 
 impl Friction {
-    /// No friction.
-    pub fn frictionless() -> Self {
-        let coefficient = Coefficient::constant(0.0).expect("zero is a coefficient of friction");
-        Self::new(Law::Frictionless, coefficient)
-    }
-
-    /// Isotropic Coulomb friction.
-    ///
-    /// # Errors
-    /// When `mu` is negative or not finite.
-    pub fn coulomb(mu: f64) -> Result<Self, FrictionError> {
-        Ok(Self::new(Law::Coulomb, Coefficient::constant(mu)?))
-    }
-
-    /// Two textured surfaces, the law of Jones & Papadopoulos; see [`TwoTextures`].
-    ///
-    /// # Errors
-    /// When `mu` is negative, a constant is not finite, or friction would create
-    /// energy for some pair of textures and some slip direction.
-    pub fn two_textures(
-        mu: f64,
-        c_mag: f64,
-        c_ang: f64,
-        c_cen: f64,
-    ) -> Result<Self, FrictionError> {
-        let law = TwoTextures::new(c_mag, c_ang, c_cen)?;
-        Ok(Self::new(Law::TwoTextures(law), Coefficient::constant(mu)?))
-    }
-
-    /// One textured surface with different friction along and across its grooves;
-    /// see [`Orthotropic`]. The coefficient of the result is the larger one.
-    ///
-    /// # Errors
-    /// When a coefficient is not positive.
-    pub fn orthotropic(
-        mu_along: f64,
-        mu_across: f64,
-        rule: SlipRule,
-    ) -> Result<Self, FrictionError> {
-        let law = Orthotropic::new(mu_along, mu_across, rule)?;
-        let mu = mu_along.max(mu_across);
-        Ok(Self::new(Law::Orthotropic(law), Coefficient::constant(mu)?))
-    }
-
-    /// One textured surface with different friction with, against and across its
-    /// nap; see [`Nap`]. The coefficient of the result is the largest one.
-    ///
-    /// # Errors
-    /// When a coefficient is not positive, or friction would create energy for some
-    /// slip direction.
-    pub fn nap(mu_forward: f64, mu_backward: f64, mu_lateral: f64) -> Result<Self, FrictionError> {
-        let law = Nap::new(mu_forward, mu_backward, mu_lateral)?;
-        let mu = mu_forward.max(mu_backward).max(mu_lateral);
-        Ok(Self::new(Law::Nap(law), Coefficient::constant(mu)?))
-    }
-
-    /// One textured surface with the coefficients of friction `mu` for slip at `angles`
-    /// (radians) from its texture; see [`Tabulated`]. The coefficient of the result is
-    /// the largest one.
-    ///
-    /// # Errors
-    /// When there are fewer than three angles or not as many coefficients, the angles do
-    /// not ascend or go around, or a coefficient is not positive.
-    pub fn tabulated(angles: &[f64], mu: &[f64]) -> Result<Self, FrictionError> {
-        let law = Tabulated::new(angles, mu)?;
-        let mu = mu.iter().copied().fold(0.0, f64::max);
-        Ok(Self::new(Law::Tabulated(law), Coefficient::constant(mu)?))
-    }
-
     /// A law from outside the crate, scaled with the coefficient `mu`; see [`FrictionLaw`].
     ///
     /// # Errors
@@ -230,13 +188,11 @@ impl Friction {
     /// # Errors
     /// When the ratio is negative or the rate is not positive.
     pub fn with_decay(self, kinetic_over_static: f64, rate: f64) -> Result<Self, FrictionError> {
-        let decay = Decay {
-            kinetic_over_static,
-            slip_rate: rate,
-            exponent: 1.0,
-            viscous: 0.0,
-        };
-        Ok(self.with_rate(RateDependence::decay(decay)?))
+        let values = [
+            ("kinetic_over_static", kinetic_over_static),
+            ("slip_rate", rate),
+        ];
+        Ok(self.with_rate(DECAY.made(&values.into())?))
     }
 
     /// Bounds the radius of the slip surface: `varpi = min(mu R(v) W(s) P(p), tau_max)`.
@@ -372,6 +328,7 @@ impl Friction {
             law,
             coefficient,
             shear_cap: None,
+            statement: None,
         }
     }
 }

@@ -22,15 +22,89 @@
 //! Admissible iff slip dissipates in all directions, see [`Ellipse::least_dissipation`]: with `P =
 //! (mu_b + mu_f)/2`, `h = (mu_b - mu_f)/2` and `P > mu_t`, `|h| < 2 (P - mu_t)` this requires
 //! `mu_t > h^2/(4 (P - mu_t))`.
+//!
+//! As a sum of parameters times vectors, for fits:
+//! `w = (mu_f (c - 1)/2 + mu_b (c + 1)/2, mu_t s)`.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Vector2, Vector3};
 use num_dual::DualNum;
 use serde::Serialize;
 
+use super::basis::{Basis, Direction, Meaning, Sum};
+use super::coefficient::Coefficient;
 use super::ellipse::Ellipse;
 use super::error::{FrictionError, positive};
 use super::kernel::Kernel;
 use super::slip_sample::SlipRule;
+use super::{Friction, Law};
+use crate::declared::{Declared, NO_UNIT, POSITIVE, Parameter};
+
+/// The law.
+pub static NAP: Declared<Friction> = Declared {
+    name: "nap",
+    summary: "One textured surface with different friction with, against and across its nap.",
+    parameters: &[
+        Parameter::number(
+            "mu_forward",
+            POSITIVE,
+            NO_UNIT,
+            "Coefficient of friction of slip with the nap.",
+        ),
+        Parameter::number(
+            "mu_backward",
+            POSITIVE,
+            NO_UNIT,
+            "Coefficient of friction of slip against the nap.",
+        ),
+        Parameter::number(
+            "mu_lateral",
+            POSITIVE,
+            NO_UNIT,
+            "Coefficient of friction of slip across the nap.",
+        ),
+    ],
+    build: |values| {
+        let [forward, backward, lateral] =
+            ["mu_forward", "mu_backward", "mu_lateral"].map(|name| values.number(name));
+        let law = Nap::new(forward, backward, lateral)?;
+        let coefficient = Coefficient::constant(forward.max(backward).max(lateral))?;
+        Ok(Friction::new(Law::Nap(law), coefficient))
+    },
+    fit: Some(Basis::Sum(Sum {
+        needed: "slip in three directions, such as with, against and across the nap",
+        constants: &[
+            Meaning::Parameter(0),
+            Meaning::Parameter(1),
+            Meaning::Parameter(2),
+        ],
+        vectors: |direction, _, _| {
+            let (d, e) = (direction.d(), Vector2::x());
+            vec![
+                e * (0.5 * (d.x - 1.0)),
+                e * (0.5 * (d.x + 1.0)),
+                Vector2::new(0.0, d.y),
+            ]
+        },
+        judged: || Direction::around(0.0).collect(),
+    })),
+};
+
+impl Friction {
+    /// One textured surface with different friction with, against and across its
+    /// nap; see [`Nap`]. The coefficient of the result is the largest one.
+    ///
+    /// # Errors
+    /// When a coefficient is not positive, or friction would create energy for some
+    /// slip direction.
+    pub fn nap(mu_forward: f64, mu_backward: f64, mu_lateral: f64) -> Result<Self, FrictionError> {
+        let values = [
+            ("mu_forward", mu_forward),
+            ("mu_backward", mu_backward),
+            ("mu_lateral", mu_lateral),
+        ];
+        NAP.made(&values.into())
+    }
+}
 
 /// Coefficients of the law over the largest one.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -64,11 +138,6 @@ impl Nap {
                 dissipation: least.dissipation() * mu,
             })
         }
-    }
-
-    /// Coefficients with the nap, against it and across it over the largest one.
-    pub fn shares(&self) -> [f64; 3] {
-        [self.forward, self.backward, self.lateral]
     }
 
     /// `L`, `eta` and `K` for the unit texture `e` of the textured surface.

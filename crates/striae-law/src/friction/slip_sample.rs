@@ -15,6 +15,24 @@ pub enum SlipRule {
     Associated,
 }
 
+impl SlipRule {
+    /// Name of the rule in decks.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Opposing => "opposing",
+            Self::Associated => "associated",
+        }
+    }
+
+    /// Returns the rule with a name that the law declares.
+    pub(super) fn named(name: &str) -> Self {
+        match name == Self::Associated.name() {
+            true => Self::Associated,
+            false => Self::Opposing,
+        }
+    }
+}
+
 /// One point of a slip surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SlipSample {

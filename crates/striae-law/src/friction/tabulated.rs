@@ -44,9 +44,66 @@ use nalgebra::Vector3;
 use num_dual::DualNum;
 use serde::Serialize;
 
+use super::basis::Basis;
+use super::coefficient::Coefficient;
 use super::error::{FrictionError, finite};
 use super::periodic::Periodic;
 use super::star::Star;
+use super::{Friction, Law};
+use crate::declared::{ANY, Declared, NO_UNIT, POSITIVE, Parameter, Value, Values, degrees};
+
+/// The law.
+pub static TABULATED: Declared<Friction> = Declared {
+    name: "tabulated",
+    summary: "One textured surface with coefficients measured at many angles; friction opposes \
+              slip.",
+    parameters: &[
+        Parameter::numbers(
+            "angles",
+            ANY,
+            "degrees",
+            "Directions in which the textured surface slips over the other one: angles from its \
+             texture `a` (across the grooves, against a nap), counter-clockwise as seen from \
+             outside it; at least three, ascending, less than a turn.",
+        ),
+        Parameter::numbers(
+            "mu",
+            POSITIVE,
+            NO_UNIT,
+            "Coefficient of friction at each angle; monotone and smooth between them.",
+        ),
+    ],
+    build: |values| {
+        let angles = values.numbers("angles").iter();
+        let angles: Vec<f64> = angles.map(|angle| angle.to_radians()).collect();
+        let mu = values.numbers("mu");
+        let law = Tabulated::new(&angles, mu)?;
+        let largest = mu.iter().copied().fold(0.0, f64::max);
+        Ok(Friction::new(
+            Law::Tabulated(law),
+            Coefficient::constant(largest)?,
+        ))
+    },
+    fit: Some(Basis::Table {
+        angles: "angles",
+        coefficients: "mu",
+    }),
+};
+
+impl Friction {
+    /// One textured surface with the coefficients of friction `mu` for slip at `angles`
+    /// (radians) from its texture; see [`Tabulated`]. The coefficient of the result is
+    /// the largest one.
+    ///
+    /// # Errors
+    /// When there are fewer than three angles or not as many coefficients, the angles do
+    /// not ascend or go around, or a coefficient is not positive.
+    pub fn tabulated(angles: &[f64], mu: &[f64]) -> Result<Self, FrictionError> {
+        let angles: Vec<f64> = angles.iter().map(|angle| degrees(*angle)).collect();
+        let angles = ("angles", Value::from(angles));
+        TABULATED.made(&Values::from_iter([angles, ("mu", Value::from(mu))]))
+    }
+}
 
 /// Coefficients over the largest one, as a function of the angle.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -79,11 +136,6 @@ impl Tabulated {
         let shares: Vec<f64> = mu.iter().map(|mu| mu / largest).collect();
         let rho = Periodic::through(angles, &shares);
         Ok(Self { rho })
-    }
-
-    /// Angles (radians) and coefficients over the largest one.
-    pub fn points(&self) -> impl Iterator<Item = [f64; 2]> {
-        self.rho.points()
     }
 
     /// The slip surface in the same axes.

@@ -47,15 +47,106 @@
 //! 1 + c_mag > c_ang (4 |c_cen| - 8)        for c_ang >= 0, |c_cen| > 4
 //! 1 + c_mag > |c_ang| (8 + 4 |c_cen|)      for c_ang < 0
 //! ```
+//!
+//! # As a sum of parameters times vectors, for fits
+//!
+//! ```text
+//! q = mu (1, c_mag, c_ang, c_ang c_cen) ,   m^2 = 2 + 2 I0
+//! w = (q_0 + q_1 I0)(c, s) + (1 + I0) m (q_2 m c + q_3, 0)
+//! ```
 
-use nalgebra::{Matrix3, Vector3};
+use std::f64::consts::PI;
+
+use nalgebra::{Matrix3, Vector2, Vector3};
 use num_dual::DualNum;
 use serde::Serialize;
 
+use super::basis::{Basis, Direction, Meaning, Sum};
+use super::coefficient::Coefficient;
 use super::ellipse::Ellipse;
 use super::error::{FrictionError, finite};
 use super::kernel::Kernel;
 use super::slip_sample::SlipRule;
+use super::{Friction, Law};
+use crate::declared::{ANY, Declared, NO_UNIT, NOT_NEGATIVE, Parameter};
+
+/// The law.
+pub static TWO_TEXTURES: Declared<Friction> = Declared {
+    name: "two-textures",
+    summary: "Two textured surfaces.",
+    parameters: &[
+        Parameter::number("mu", NOT_NEGATIVE, NO_UNIT, "Coefficient of friction."),
+        Parameter::number(
+            "c_mag",
+            ANY,
+            NO_UNIT,
+            "Dependence of the magnitude on the angle between the textures.",
+        ),
+        Parameter::number(
+            "c_ang",
+            ANY,
+            NO_UNIT,
+            "Dependence on the angle between slip and textures.",
+        ),
+        Parameter::number(
+            "c_cen",
+            ANY,
+            NO_UNIT,
+            "Difference between slip with and against the textures.",
+        ),
+    ],
+    build: |values| {
+        let [mu, mag, ang, cen] = ["mu", "c_mag", "c_ang", "c_cen"].map(|name| values.number(name));
+        let law = TwoTextures::new(mag, ang, cen)?;
+        Ok(Friction::new(
+            Law::TwoTextures(law),
+            Coefficient::constant(mu)?,
+        ))
+    },
+    fit: Some(Basis::Sum(Sum {
+        needed: "several directions of slip at two or more angles `theta` between the textures",
+        constants: &[
+            Meaning::Parameter(0),
+            Meaning::Quotient(1, 0),
+            Meaning::Quotient(2, 0),
+            Meaning::Quotient(3, 2),
+        ],
+        vectors: |direction, _, _| {
+            let (d, i0) = (direction.d(), direction.theta.cos());
+            let m = (2.0 + 2.0 * i0).max(0.0).sqrt();
+            let turned = Vector2::x() * ((1.0 + i0) * m);
+            vec![d, d * i0, turned * (m * d.x), turned]
+        },
+        // Dissipation is least where textures are opposed or aligned.
+        judged: || {
+            Direction::around(0.0)
+                .chain([Direction::new(PI, 0.0)])
+                .collect()
+        },
+    })),
+};
+
+impl Friction {
+    /// Two textured surfaces, the law of Jones & Papadopoulos; see [`TwoTextures`].
+    ///
+    /// # Errors
+    /// When `mu` is negative, a constant is not finite, or friction would create
+    /// energy for some pair of textures and some slip direction.
+    pub fn two_textures(
+        mu: f64,
+        c_mag: f64,
+        c_ang: f64,
+        c_cen: f64,
+    ) -> Result<Self, FrictionError> {
+        let values = [
+            ("mu", mu),
+            ("c_mag", c_mag),
+            ("c_ang", c_ang),
+            ("c_cen", c_cen),
+        ];
+        TWO_TEXTURES.made(&values.into())
+    }
+}
 
 /// Constants of the law.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -98,11 +189,6 @@ impl TwoTextures {
                 dissipation: value,
             })
         }
-    }
-
-    /// The constants `c_mag`, `c_ang` and `c_cen`.
-    pub fn constants(&self) -> [f64; 3] {
-        [self.c_mag, self.c_ang, self.c_cen]
     }
 
     /// `L`, `eta` and `K` for the unit textures `own = a_a` and `opposite = a_b'`.

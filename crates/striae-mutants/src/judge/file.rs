@@ -7,7 +7,7 @@ use striae::{
     deck::convert as made,
     law::{
         fit::{Sought, fit},
-        friction::SlipRule,
+        friction::LAWS,
     },
     measurements,
     mesh_file::{
@@ -111,16 +111,11 @@ pub(super) fn measurements(sample: &Sample) -> Result<Reached, Finding> {
             return Ok(Reached::Refused);
         }
     };
-    let laws = [
-        Sought::Coulomb,
-        Sought::Orthotropic(SlipRule::Opposing),
-        Sought::Orthotropic(SlipRule::Associated),
-        Sought::Nap,
-        Sought::TwoTextures,
-        Sought::Tabulated,
-    ];
-    for law in laws {
-        match fit(law, &readings, 0.95) {
+    let laws = LAWS.iter().filter_map(|law| Sought::new(law));
+    let associated = Sought::named("orthotropic");
+    let associated = associated.map(|law| law.with("slip_rule", "associated"));
+    for law in laws.chain(associated) {
+        match fit(&law, &readings, 0.95) {
             Err(error) => worded(&error.to_string())?,
             Ok(found) => {
                 let numbers = found.constants.iter().map(|one| one.value);

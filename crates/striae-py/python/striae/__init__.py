@@ -6,7 +6,7 @@ A block is pressed onto a grooved floor and dragged across:
 >>> rubber = st.NeoHookean(youngs_modulus=1e6, poissons_ratio=0.3)
 >>> pad = st.Body("pad", st.block(divisions=(2, 2, 2)), rubber)
 >>> floor = st.Plane("floor", texture=(1, 0, 0))
->>> law = st.Orthotropic(along=0.1, across=0.4)
+>>> law = st.Orthotropic(mu_along=0.1, mu_across=0.4)
 >>> model = st.Model([pad], [floor], [st.Pair(pad["zmin"], floor, law)])
 >>> _ = model.step("press", pad["zmax"].displace(x=0, y=0, z=-0.02), increments=2)
 >>> _ = model.step("drag", pad["zmax"].displace(y=0.3), increments=5)
@@ -31,18 +31,10 @@ from ._errors import (
 )
 from ._fibres import ExponentialFibres, Fibres, Fibrous, LinearFibres
 from ._fit import FrictionFit, Measurements, fit_friction, read_measurements
-from ._friction import (
-    Coulomb,
-    Friction,
-    Frictionless,
-    Nap,
-    Orthotropic,
-    OwnFriction,
-    SlipSurface,
-    Tabulated,
-    TwoTextures,
-)
+from ._friction import Friction, OwnFriction, SlipSurface
 from ._gradient import differentiate
+from ._laws import *
+from ._laws import __all__ as _laws
 from ._material import (
     ArrudaBoyce,
     ElasticPlastic,
@@ -110,7 +102,6 @@ __all__ = [
     "Fit",
     "Friction",
     "FrictionFit",
-    "Frictionless",
     "Gent",
     "Grading",
     "History",
@@ -125,11 +116,9 @@ __all__ = [
     "Model",
     "ModelError",
     "MooneyRivlin",
-    "Nap",
     "NeoHookean",
     "Nodal",
     "Ogden",
-    "Orthotropic",
     "OwnFriction",
     "OwnMaterial",
     "Painted",
@@ -156,11 +145,9 @@ __all__ = [
     "Sweep",
     "SweepError",
     "SweepPoint",
-    "Tabulated",
     "Texture",
     "Tie",
     "TieResults",
-    "TwoTextures",
     "Uniform",
     "Yeoh",
     "annulus",
@@ -177,3 +164,5 @@ __all__ = [
     "sweep",
     "torus",
 ]
+
+__all__ += _laws

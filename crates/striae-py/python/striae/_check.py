@@ -33,6 +33,8 @@ Along: TypeAlias = Union[
 ]
 Members: TypeAlias = Union[npt.ArrayLike, Callable[[Floats], npt.ArrayLike]]
 
+Values: TypeAlias = dict[str, Union[float, list[float], str, None]]
+
 CURVES = ("ramp", "constant", "smooth")
 
 #: Straight pieces by which a curve given as a function is approximated.
@@ -121,6 +123,20 @@ def number(value: Any, path: str) -> float:
     if not np.isfinite(value):
         raise refuse(path, f"a finite number is needed, not {value!r}")
     return float(value)
+
+
+def optional(value: Any, path: str) -> Optional[float]:
+    """A finite number, or nothing."""
+    return None if value is None else number(value, path)
+
+
+def numbers(value: Any, path: str) -> list[float]:
+    """A list of numbers."""
+    found = array(value, path)
+    if found.ndim != 1:
+        raise refuse(path, f"an array of one dimension is needed, not of {found.ndim}")
+    listed: list[float] = found.astype(np.float64).tolist()
+    return listed
 
 
 def positive(value: Any, path: str) -> float:

@@ -1,10 +1,10 @@
-"""Friction laws fitted to measurements."""
+"""Friction laws from measured friction."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Optional, Union
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Union
 
 import numpy as np
 
@@ -12,30 +12,21 @@ from . import _check as check
 from . import _striae as native
 from ._check import Floats
 from ._errors import refuse
-from ._friction import Coulomb, Friction, Nap, Orthotropic, Tabulated, TwoTextures
+from ._friction import Friction
+from ._laws import FITTED, Tabulated
 from ._mesh import frozen
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-#: Laws that can be fitted, and their names in decks.
-LAWS: dict[type[Friction], str] = {
-    Coulomb: "coulomb",
-    Orthotropic: "orthotropic",
-    Nap: "nap",
-    TwoTextures: "two-textures",
-    Tabulated: "tabulated",
-}
-
-
 class Measurements(NamedTuple):
-    """Measured friction, the input of :func:`fit_friction`."""
+    """Measured friction, as :func:`fit_friction` takes it."""
 
     angles: Floats
     """Directions of slip, of shape (n,) (degrees)."""
     forces: Floats
-    """Ratio of tangential to normal force: the part against slip, of shape (n,), or, if directions
-    of the force were measured, components, of shape (n, 2) (no unit)."""
+    """Tangential over normal force: the part against slip, of shape (n,), or where directions
+    of the force were measured components, of shape (n, 2) (no unit)."""
     theta: Floats
     """Angles between the textures of two surfaces, of shape (n,) (degrees)."""
     spread: Floats
@@ -43,13 +34,12 @@ class Measurements(NamedTuple):
 
 
 def read_measurements(path: Union[str, os.PathLike[str]]) -> Measurements:
-    """Reads a file of measurements, in the format of ``striae fit``.
+    """Reads a file of measurements, as ``striae fit`` takes it.
 
-    The file has one reading per line, with numbers separated by commas, below a line with the names
-    of columns: ``angle`` (degrees), ``friction`` (no unit) or ``tangential`` and ``normal``
-    (force), and optionally ``direction`` and ``theta`` (degrees) and ``spread`` (no unit). Text
-    after a ``#`` is ignored. All faults are raised as one :class:`ModelError` with lines and
-    columns.
+    One reading a line, numbers separated by commas, under a line with the names of columns:
+    ``angle`` (degrees), ``friction`` (no unit) or ``tangential`` and ``normal`` (force), and where
+    they are known ``direction`` and ``theta`` (degrees) and ``spread`` (no unit). What follows a
+    ``#`` is passed over. All faults are one :class:`ModelError` with lines and columns.
 
     path: the file.
     """
@@ -80,11 +70,11 @@ class FrictionFit:
         level: float,
         measured: tuple[Floats, Floats, Floats, Optional[Floats]],
     ) -> None:
-        """Use :func:`fit_friction` to make a fit."""
+        """Fits are made by :func:`fit_friction`."""
         constants, self._deviation, self._freedom = found
         self._friction, self._at_bound, self._level = friction, at_bound, level
-        self._constants = {name.removeprefix("mu_"): value for name, value, _ in constants}
-        self._intervals = {name.removeprefix("mu_"): ends for name, _, ends in constants}
+        self._constants = {name: value for name, value, _ in constants}
+        self._intervals = {name: ends for name, _, ends in constants}
         self._measured = measured
 
     @property
@@ -94,16 +84,16 @@ class FrictionFit:
 
     @property
     def constants(self) -> dict[str, float]:
-        """Constants, by the names of the arguments of the law, such as ``forward``; for a table
-        ``mu at 30 degrees`` (no unit)."""
+        """Constants by the name they have as arguments of the law, such as ``mu_forward``; of a
+        table ``mu at 30 degrees`` (no unit)."""
         return dict(self._constants)
 
     @property
     def intervals(self) -> dict[str, Optional[tuple[float, float]]]:
         """Intervals in which the constants lie with the probability :attr:`level` (no unit).
 
-        ``None`` if no readings are left to estimate errors from, or if :attr:`at_bound`; ends are
-        infinite if the measurements do not bound a constant.
+        ``None`` where nothing is left to tell errors by, or where :attr:`at_bound`; infinite
+        ends where the measurements do not bound a constant.
         """
         return dict(self._intervals)
 
@@ -119,17 +109,17 @@ class FrictionFit:
 
     @property
     def degrees_of_freedom(self) -> int:
-        """Number of measured values minus that of constants (no unit)."""
+        """Measured numbers less constants."""
         return self._freedom
 
     @property
     def at_bound(self) -> bool:
-        """``True`` if the law closest to the measurements would create energy; the law found is
-        then the closest one that does not."""
+        """True if the law closest to the measurements would create energy; this one is the
+        closest one that does not."""
         return self._at_bound
 
     def plot(self, axes: Optional[Axes] = None) -> Axes:
-        """Draws friction against slip over the direction of slip, measured and fitted.
+        """Draws friction against slip over the direction of slip, measured and by the law.
 
         axes: where it is drawn; on a new figure by default.
         """
@@ -147,15 +137,15 @@ def fit_friction(
     forces: Union[Sequence[float], Sequence[Sequence[float]], Floats],
     law: type[Friction] = Tabulated,
     *,
-    slip_rule: Literal["opposing", "associated"] = "opposing",
     theta: Union[float, Sequence[float], Floats] = 0.0,
     spread: Union[float, Sequence[float], Floats] = 1.0,
     level: float = 0.95,
+    **words: str,
 ) -> FrictionFit:
     """Finds the constants of a friction law from measurements, by least squares.
 
-    The law found dissipates in all directions of slip. Readings are assumed to be independent and
-    normally distributed.
+    The law that is found dissipates in all directions of slip. Readings are taken as
+    independent and normally distributed.
 
     angles: direction in which the textured surface slips at each reading, from its texture
         ``a`` (across the grooves, against a nap), counter-clockwise as seen from outside it;
@@ -163,35 +153,36 @@ def fit_friction(
     forces: tangential over normal force at each reading: of shape (n,) the part against slip,
         of shape (n, 2) the components of ``-tau/p``, the force that drags the textured
         surface, along ``a`` and a quarter turn from it, as in :class:`SlipSurface` (no unit).
-    law: the class of the law: :class:`Coulomb`, :class:`Orthotropic`, :class:`Nap`,
-        :class:`TwoTextures` or :class:`Tabulated`.
-    slip_rule: that of :class:`Orthotropic`.
+    law: the class of the law, such as :class:`Nap`.
     theta: angle between the textures of two surfaces at each reading (degrees).
     spread: standard deviation of each reading in proportion to that of others (no unit).
     level: probability with which each constant lies in its interval (no unit).
+    words: those of the law, by their names, such as ``slip_rule="associated"`` of
+        :class:`Orthotropic`.
     """
-    if law not in LAWS:
-        known = ", ".join(one.__name__ for one in LAWS)
+    if law not in FITTED:
+        known = ", ".join(one.__name__ for one in FITTED)
         raise TypeError(f"law: one of the classes {known} is needed, not {law!r}")
-    rule = check.word(slip_rule, ("opposing", "associated"), "slip_rule")
     slip = np.radians(_column(angles, None, "angles"))
     against, across = _forces(forces, slip)
     textures = np.radians(_column(theta, len(slip), "theta"))
     spreads = _column(spread, len(slip), "spread")
-    name = "associated" if law is Orthotropic and rule == "associated" else LAWS[law]
     measured = (slip, textures, against, across, spreads)
     probability = check.number(level, "level")
     found, constants, deviation, freedom, at_bound = native.fit_friction(
-        name, measured, probability
+        FITTED[law], list(words.items()), measured, probability
     )
-    friction = law._of(found, _told(law, constants, rule), _recipe(law, constants, rule))
+    stated = found.statement()
+    assert stated is not None, "the law is a declared one"
+    maker: Callable[..., Friction] = law
+    friction = maker(**dict(stated[1]))
     kept = (frozen(slip), frozen(textures), frozen(against), across)
     summary = (constants, deviation, freedom)
     return FrictionFit(friction, summary, at_bound, probability, kept)
 
 
 def _column(value: Any, count: Optional[int], path: str) -> Floats:
-    """An array of ``count`` numbers, or one number for all."""
+    """An array of so many numbers, which may be stated by one number."""
     found = check.array(value, path)
     if found.ndim == 0 and count is not None:
         found = np.full(count, found)
@@ -215,32 +206,3 @@ def _forces(forces: Any, slip: Floats) -> tuple[Floats, Optional[Floats]]:
     against = vectors[:, 0] * cosine + vectors[:, 1] * sine
     across = vectors[:, 1] * cosine - vectors[:, 0] * sine
     return np.ascontiguousarray(against), np.ascontiguousarray(across)
-
-
-def _recipe(
-    law: type[Friction],
-    constants: list[tuple[str, float, Optional[tuple[float, float]]]],
-    rule: str,
-) -> tuple[Any, tuple[Any, ...], dict[str, Any]]:
-    """Constructor of the law, from its constants."""
-    values = {name.removeprefix("mu_"): value for name, value, _ in constants}
-    if law is Tabulated:
-        # "mu at 30 degrees"
-        return law, ([float(name.split()[2]) for name in values], list(values.values())), {}
-    named: dict[str, Any] = dict(values)
-    if law is Orthotropic:
-        named["slip_rule"] = rule
-    return law, (), named
-
-
-def _told(
-    law: type[Friction],
-    constants: list[tuple[str, float, Optional[tuple[float, float]]]],
-    rule: str,
-) -> str:
-    if law is Tabulated:
-        return f"Tabulated({len(constants)} angles)"
-    told = [f"{name.removeprefix('mu_')}={value:.4g}" for name, value, _ in constants]
-    if law is Orthotropic:
-        told.append(f"slip_rule={rule!r}")
-    return f"{law.__name__}({', '.join(told)})"

@@ -6,27 +6,29 @@ the row of scales, ``a = n x s`` across; for scales ``a`` points from root to fr
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Optional, Union
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Literal, NamedTuple, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _check as check
 from . import _striae as native
-from ._check import Floats
+from ._check import Floats, Values
+from ._dependences import Dependences
 from ._errors import refuse
-from ._made import Made, Recipe
+from ._made import Recipe, listed
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from typing_extensions import Self
 
 
 class SlipSurface(NamedTuple):
     """Friction of a slipping contact, sampled over all directions, per unit of pressure.
 
-    Directions are angles in the frame of the texture, from ``a`` (across the grooves, against a
-    nap) towards ``s``'s side, counter-clockwise; for two textures from their sum.
+    Directions count in the frame of the texture, from ``a`` (across the grooves, against a
+    nap) towards ``s``'s side, counter-clockwise; of two textures from their sum.
     """
 
     slip_angle: Floats
@@ -38,7 +40,7 @@ class SlipSurface(NamedTuple):
     (no unit)."""
 
 
-class Friction(Made):
+class Friction(Dependences):
     """Friction between two surfaces; see the laws."""
 
     _native: native.Friction
@@ -46,9 +48,7 @@ class Friction(Made):
 
     def __init__(self) -> None:
         """Use one of the laws."""
-        raise TypeError(
-            "use Frictionless, Coulomb, Orthotropic, Nap, TwoTextures, Tabulated or OwnFriction"
-        )
+        raise TypeError("use one of the laws, such as Coulomb, or OwnFriction")
 
     @classmethod
     def _of(
@@ -60,141 +60,6 @@ class Friction(Made):
         law: Friction = cls.__new__(cls)
         law._native, law._told, law._recipe = found, told, recipe
         return law
-
-    def with_decay(self, kinetic_over_static: float, slip_rate: float) -> Friction:
-        """The law with coefficients that decay as slip becomes faster,
-        ``kinetic + (static - kinetic) exp(-rate/slip_rate)``.
-
-        kinetic_over_static: coefficients in fast slip over those at rest (no unit).
-        slip_rate: rate of slip at which the difference has fallen to 1/e (length per time).
-        """
-        ratio = check.number(kinetic_over_static, "kinetic_over_static")
-        rate = check.number(slip_rate, "slip_rate")
-        told = f"{self._told}.with_decay({ratio}, {rate})"
-        recipe: Recipe = (Friction.with_decay, (self, ratio, rate), {})
-        return Friction._of(self._native.with_decay(ratio, rate), told, recipe)
-
-    def with_power_law(
-        self, exponent: float, pressure: float, floor: Optional[float] = None
-    ) -> Friction:
-        """The law with coefficients that go with a power of the pressure,
-        ``mu (p/pressure)**(exponent - 1)``, in place of another dependence on it.
-
-        exponent: below 1 for coefficients that fall; 2/3 for one elastic contact (no unit).
-        pressure: at which the coefficients are those of the law (force per area).
-        floor: pressure below which, for exponents below 1, friction goes to zero along a parabola
-            with a finite slope (force per area); a thousandth of ``pressure`` by default.
-        """
-        constants = {"exponent": exponent, "pressure": pressure, "floor": floor}
-        return self._with("with_power_law", constants)
-
-    def with_adhesion(self, pressure: float, floor: Optional[float] = None) -> Friction:
-        """The law with friction ``mu (p + pressure)``, to which adhesion adds (Derjaguin), in
-        place of another dependence on the pressure.
-
-        pressure: by adhesion (force per area).
-        floor: pressure below which friction goes to zero along a parabola with a finite slope
-            (force per area); a twentieth of ``pressure`` by default.
-        """
-        return self._with("with_adhesion", {"pressure": pressure, "floor": floor})
-
-    def with_saturation(self, shear_stress: float) -> Friction:
-        """The law with friction ``shear_stress tanh(mu p/shear_stress)``, which comes to a shear
-        stress smoothly, in place of another dependence on the pressure.
-
-        shear_stress: at high pressure (force per area).
-        """
-        return self._with("with_saturation", {"shear_stress": shear_stress})
-
-    def with_pressure_table(
-        self,
-        pressures: Union[Sequence[float], Floats],
-        factors: Union[Sequence[float], Floats],
-    ) -> Friction:
-        """The law with coefficients times a factor by the pressure, monotone and smooth between
-        the points and constant beyond, in place of another dependence on the pressure.
-
-        pressures: ascending (force per area).
-        factors: at each of them (no unit).
-        """
-        return self._with_table("with_pressure_table", "pressures", pressures, factors)
-
-    def with_stribeck(
-        self,
-        kinetic_over_static: float,
-        slip_rate: float,
-        exponent: float = 2.0,
-        viscous: float = 0.0,
-    ) -> Friction:
-        """The law with coefficients along Stribeck's curve, those at rest times
-        ``c + (1 - c) exp(-(v/slip_rate)**exponent) + viscous v`` with
-        ``c = kinetic_over_static``, in place of another dependence on the slip rate ``v``.
-
-        kinetic_over_static: coefficients in fast slip, without the viscous part, over those at
-            rest (no unit).
-        slip_rate: by which slip is fast (length per time).
-        exponent: at least 1 (no unit).
-        viscous: rise over the coefficients at rest (time per length).
-        """
-        constants = {
-            "kinetic_over_static": kinetic_over_static,
-            "slip_rate": slip_rate,
-            "exponent": exponent,
-            "viscous": viscous,
-        }
-        return self._with("with_stribeck", constants)
-
-    def with_logarithm(
-        self, factor: float, slip_rate: float, limit: Optional[float] = None
-    ) -> Friction:
-        """The law with coefficients times ``1 + factor ln(1 + v/slip_rate)``, in place of another
-        dependence on the slip rate ``v``.
-
-        factor: positive for friction that rises with the rate, negative for friction that falls
-            (no unit).
-        slip_rate: up to which coefficients hardly change (length per time).
-        limit: slip rate from which on coefficients are constant, needed where they fall (length
-            per time).
-        """
-        constants = {"factor": factor, "slip_rate": slip_rate, "limit": limit}
-        return self._with("with_logarithm", constants)
-
-    def with_slip_rate_table(
-        self,
-        slip_rates: Union[Sequence[float], Floats],
-        factors: Union[Sequence[float], Floats],
-    ) -> Friction:
-        """The law with coefficients times a factor by the slip rate, monotone and smooth between
-        the points and constant beyond, in place of another dependence on the slip rate.
-
-        slip_rates: ascending (length per time).
-        factors: at each of them (no unit).
-        """
-        return self._with_table("with_slip_rate_table", "slip_rates", slip_rates, factors)
-
-    def with_running_in(self, final_over_initial: float, slip: float) -> Friction:
-        """The law with coefficients that change as the surface that carries a point slips, those
-        stated times ``w + (1 - w) exp(-s/slip)`` with ``w = final_over_initial`` and the slip
-        ``s`` that has accumulated up to the last increment.
-
-        final_over_initial: coefficients after long slip over those at the start (no unit).
-        slip: after which the difference has fallen to 1/e (length).
-        """
-        constants = {"final_over_initial": final_over_initial, "slip": slip}
-        return self._with("with_running_in", constants)
-
-    def with_accumulated_slip_table(
-        self,
-        slips: Union[Sequence[float], Floats],
-        factors: Union[Sequence[float], Floats],
-    ) -> Friction:
-        """The law with coefficients times a factor by the accumulated slip, monotone and smooth
-        between the points and constant beyond, in place of another dependence on it.
-
-        slips: accumulated, ascending (length).
-        factors: at each of them (no unit).
-        """
-        return self._with_table("with_accumulated_slip_table", "slips", slips, factors)
 
     def bound(
         self,
@@ -223,27 +88,17 @@ class Friction(Made):
         bounds = self._native.bound(pressures.ravel().tolist(), given[0], given[1])
         return bounds.reshape(pressures.shape)
 
-    def _with(self, method: str, constants: Mapping[str, Optional[float]]) -> Friction:
-        """The law with an additional dependence, by the name of its method."""
-        numbers = {
-            name: None if value is None and name in ("floor", "limit") else check.number(value, name)
-            for name, value in constants.items()
-        }
-        stated = {name: value for name, value in numbers.items() if value is not None}
-        told = ", ".join(f"{name}={value}" for name, value in stated.items())
-        recipe: Recipe = (getattr(Friction, method), (self, *numbers.values()), {})
-        found = getattr(self._native, method)(*numbers.values())
-        return Friction._of(found, f"{self._told}.{method}({told})", recipe)
+    def _make(self, law: str, values: Values) -> None:
+        """Makes a declared law of values that are present."""
+        given = [(name, value) for name, value in values.items() if value is not None]
+        self._native = native.Friction.declared(type(self).__name__, law, given)
+        self._told = f"{type(self).__name__}({listed(given)})"
 
-    def _with_table(self, method: str, name: str, places: Any, factors: Any) -> Friction:
-        given = [check.array(places, name), check.array(factors, "factors")]
-        for found, what in zip(given, [name, "factors"]):
-            if found.ndim != 1:
-                raise refuse(what, f"an array of one dimension is needed, not of {found.ndim}")
-        lists = [found.astype(np.float64).tolist() for found in given]
-        recipe: Recipe = (getattr(Friction, method), (self, *lists), {})
-        told = f"{self._told}.{method}({name}={lists[0]}, factors={lists[1]})"
-        return Friction._of(getattr(self._native, method)(*lists), told, recipe)
+    def _with(self, key: str, form: str, method: str, values: Values) -> Friction:
+        given = [(name, value) for name, value in values.items() if value is not None]
+        found = self._native.with_dependence(key, form, given)
+        recipe: Recipe = (getattr(Friction, method), (self, *values.values()), {})
+        return Friction._of(found, f"{self._told}.{method}({listed(given)})", recipe)
 
     def with_shear_cap(self, shear_cap: float) -> Friction:
         """The law with a bound on friction.
@@ -282,101 +137,21 @@ class Friction(Made):
         return self._told
 
 
-class Frictionless(Friction):
-    """Frictionless contact."""
-
-    def __init__(self) -> None:
-        """Makes the law."""
-        self._native = native.Friction.frictionless()
-        self._told = "Frictionless()"
-
-
-class Coulomb(Friction):
-    """Isotropic Coulomb friction."""
-
-    def __init__(self, mu: float) -> None:
-        """Makes the law; mu: coefficient of friction (no unit)."""
-        self._native = native.Friction.coulomb(check.number(mu, "mu"))
-        self._told = f"Coulomb({mu})"
-
-
-class Orthotropic(Friction):
-    """One textured surface with different friction along and across its grooves."""
-
-    def __init__(
-        self, along: float, across: float, slip_rule: Literal["opposing", "associated"] = "opposing"
-    ) -> None:
-        """Makes the law.
-
-        along, across: coefficients of friction of slip along and across the grooves (no unit).
-        slip_rule: ``opposing``: each component of friction opposes that of slip;
-            ``associated``: slip is normal to the slip surface.
-        """
-        numbers = check.number(along, "along"), check.number(across, "across")
-        rule = check.word(slip_rule, ("opposing", "associated"), "slip_rule")
-        self._native = native.Friction.orthotropic(*numbers, rule == "associated")
-        self._told = f"Orthotropic(along={along}, across={across}, slip_rule={slip_rule!r})"
-
-
-class Nap(Friction):
-    """One textured surface with different friction with, against and across its nap: scales,
-    hair or pile."""
-
-    def __init__(self, forward: float, backward: float, lateral: float) -> None:
-        """Makes the law.
-
-        forward, backward, lateral: coefficients of friction of slip with the nap, against it
-            and across it (no unit).
-        """
-        names = ["forward", "backward", "lateral"]
-        numbers = [check.number(v, n) for v, n in zip([forward, backward, lateral], names)]
-        self._native = native.Friction.nap(*numbers)
-        self._told = f"Nap(forward={forward}, backward={backward}, lateral={lateral})"
-
-
-class TwoTextures(Friction):
-    """Two textured surfaces, the law of Jones and Papadopoulos."""
-
-    def __init__(self, mu: float, c_mag: float, c_ang: float, c_cen: float) -> None:
-        """Makes the law.
-
-        mu: coefficient of friction (no unit).
-        c_mag: dependence of the magnitude on the angle between the textures (no unit).
-        c_ang: dependence on the angle between slip and textures (no unit).
-        c_cen: difference between slip with and against the textures (no unit).
-        """
-        names = ["mu", "c_mag", "c_ang", "c_cen"]
-        numbers = [check.number(v, n) for v, n in zip([mu, c_mag, c_ang, c_cen], names)]
-        self._native = native.Friction.two_textures(*numbers)
-        self._told = f"TwoTextures({mu}, c_mag={c_mag}, c_ang={c_ang}, c_cen={c_cen})"
-
-
-class Tabulated(Friction):
-    """One textured surface with coefficients measured at many angles; friction opposes slip."""
+class SampledFriction(Friction):
+    """Friction from coefficients at many angles."""
 
     def __init__(
         self, angles: Union[Sequence[float], Floats], mu: Union[Sequence[float], Floats]
     ) -> None:
-        """Makes the law.
-
-        angles: directions in which the textured surface slips, from its ``a``, ascending
-            within a turn (degrees).
-        mu: coefficient of friction at each angle (no unit).
-        """
-        given: list[Any] = [check.array(angles, "angles"), check.array(mu, "mu")]
-        for found, name in zip(given, ["angles", "mu"]):
-            if found.ndim != 1:
-                raise refuse(name, f"an array of one dimension is needed, not of {found.ndim}")
-        radians = np.radians(given[0]).tolist()
-        self._native = native.Friction.tabulated(radians, given[1].astype(np.float64).tolist())
-        self._told = f"Tabulated({len(radians)} angles)"
+        """Makes the law of angles (degrees) and coefficients (no unit)."""
+        raise TypeError("use Tabulated")
 
     @classmethod
-    def sampled(cls, mu: Callable[[float], float], count: int = 360) -> Tabulated:
-        """Makes the law from a function, its polar curve, which is called once for each angle.
+    def sampled(cls, mu: Callable[[float], float], count: int = 360) -> Self:
+        """Makes the law from a function, its polar curve, which is called for each angle once.
 
-        Between the angles the law is monotone and smooth; its error is at most of the order of the
-        square of their distance.
+        Between the angles the law is monotone and smooth; it differs from the function by the
+        square of their distance and less.
 
         mu: coefficient of friction (no unit) of slip at an angle (degrees).
         count: number of angles, from 0 at equal distances.
@@ -388,7 +163,7 @@ class Tabulated(Friction):
 
 
 class OwnFriction(Friction):
-    """A user-defined friction law: a Python function states its kernel.
+    """A friction law that a function of Python states by its kernel.
 
     At a contact point with the pressure ``p``, friction is ``-tau = mu p (L d + eta)`` in slip
     along ``K d`` with a unit vector ``d``; without slip it is anywhere inside that slip surface.
@@ -397,10 +172,10 @@ class OwnFriction(Friction):
     turn from it, of two textures their bisector and a quarter turn from it. There they depend
     on the angle between two textures, and of one texture on nothing.
 
-    The function is called when the law is made, not during a run: its values become a Fourier
-    series over the angle, exact to round-off. The law is checked against mechanics: friction
-    dissipates in all directions, is opposite on the two surfaces and inside its slip surface, and
-    derivatives are exact. A law that fails raises a :class:`ModelError` with the reason.
+    The function is called when the law is made, not during a run: its answers become a Fourier
+    series over the angle, exact to round-off. The law is held against mechanics: friction
+    dissipates in all directions, is opposite on the two surfaces, inside its slip surface, and
+    derivatives are exact. Otherwise one :class:`ModelError` says what is wrong.
     """
 
     def __init__(
@@ -457,9 +232,9 @@ def _series(kernel: Callable[[float], Sequence[npt.ArrayLike]], law: str) -> lis
             return terms
     raise refuse(
         law,
-        "the kernel is not a smooth function of the angle between the textures: its Fourier series"
-        f" has not ended after {SAMPLES[-1] // 4} terms; note that the bisector reverses where"
-        " textures become opposed, so components along it must vanish there",
+        "the kernel is no smooth function of the angle between the textures: its Fourier series"
+        f" has not ended after {SAMPLES[-1] // 4} terms; mind that the bisector turns back where"
+        " textures become opposed, so what points along it must vanish there",
     )
 
 

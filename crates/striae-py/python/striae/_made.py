@@ -29,3 +29,13 @@ class Made:
 def again(maker: Callable[..., Any], arguments: tuple[Any, ...], named: dict[str, Any]) -> Any:
     """The object of a recipe."""
     return maker(*arguments, **named)
+
+
+def listed(given: list[tuple[str, Any]]) -> str:
+    """Arguments by their names, long lists by their lengths."""
+    long = 6
+
+    def told(value: Any) -> str:
+        return f"<{len(value)} numbers>" if isinstance(value, list) and len(value) > long else repr(value)
+
+    return ", ".join(f"{name}={told(value)}" for name, value in given)

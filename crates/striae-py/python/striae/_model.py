@@ -15,7 +15,8 @@ from . import _striae as native
 from ._body import Body, BodySet
 from ._errors import refuse
 from ._everything import FEATURE_ANGLE, Everything, Excluded, Surface
-from ._friction import Friction, Frictionless
+from ._friction import Friction
+from ._laws import Frictionless
 from ._mesh import Mesh
 from ._pair import Pair, _change
 from ._rigid import Rigid

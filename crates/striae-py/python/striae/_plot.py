@@ -109,8 +109,6 @@ def _axis_name(direction: Floats) -> str:
 
 def draw_friction(friction: Friction, axes: Optional[Axes], theta: float) -> Axes:
     """The slip surface as a curve, friction over pressure, with arrows of slip from it."""
-    from ._friction import TwoTextures
-
     on = _axes(axes)
     surface = friction.slip_surface(theta, 360)
     closed = np.vstack([surface.friction, surface.friction[:1]])
@@ -135,7 +133,7 @@ def draw_friction(friction: Friction, axes: Optional[Axes], theta: float) -> Axe
     on.set_aspect("equal")
     on.set_xlabel("across the texture (a)")
     on.set_ylabel("along the texture (-s)")
-    at = f"\ntextures at {theta:g} degrees" if isinstance(friction, TwoTextures) else ""
+    at = f"\ntextures at {theta:g} degrees" if friction._native.of_two_textures else ""
     on.set_title(repr(friction) + at, fontsize="small")
     on.legend(loc="upper right", fontsize="small")
     return on
@@ -146,11 +144,9 @@ def draw_fit(
 ) -> Axes:
     """Friction against slip over the direction of slip: readings as marks, the law as lines,
     of two textured surfaces at each angle between the textures."""
-    from ._friction import TwoTextures
-
     on = _axes(axes)
     slip, theta, against = measured
-    two = friction._told.startswith(TwoTextures.__name__)
+    two = friction._native.of_two_textures
     angles = np.unique(theta) if two else np.zeros(1)
     for number, angle in enumerate(angles):
         here = theta == angle if two else np.full(len(theta), True)

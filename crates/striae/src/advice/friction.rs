@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use striae_law::friction::{Friction, Law, PressureConstants, RequiredTextures, SlipConstants};
+use striae_law::friction::{Friction, Law, RequiredTextures};
 use striae_model::{Model, Pair};
 
 use super::{Advice, Topic};
@@ -86,7 +86,7 @@ fn of_dependences(name: &str, when: &str, friction: &Friction, advice: &mut Advi
     }
     let coefficient = friction.coefficient();
     let by_pressure = coefficient.by_pressure();
-    if by_pressure.constants() != PressureConstants::None {
+    if by_pressure.is_some() {
         let largest = by_pressure.largest_factor();
         let reach = match largest.is_finite() {
             true => format!("are up to {largest:.4} times those stated"),
@@ -98,7 +98,7 @@ fn of_dependences(name: &str, when: &str, friction: &Friction, advice: &mut Advi
         advice.note(Topic::Friction, name, text);
     }
     let by_slip = coefficient.by_slip();
-    if by_slip.constants() != SlipConstants::None {
+    if by_slip.is_some() {
         let text = format!(
             "pair `{name}`: coefficients of friction{when} are those stated times {by_slip} with the accumulated slip s, at most times {:.4}",
             by_slip.largest_factor()

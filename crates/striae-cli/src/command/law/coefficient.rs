@@ -1,22 +1,23 @@
 //! The coefficient of friction in words.
 
-use striae_law::friction::{Friction, PressureConstants, RateConstants, SlipConstants};
+use striae_law::{
+    declared::Kind,
+    friction::{DECAY, Friction},
+};
 
 /// `varpi` and what it depends on in words.
 pub(super) fn coefficient(friction: &Friction) -> String {
     let mu = friction.coefficient();
     let mut words = format!("mu = {}", mu.at_rest());
-    let decay = match mu.by_rate().constants() {
-        RateConstants::Decay(decay) => decay.exponent == 1.0 && decay.viscous == 0.0,
-        _ => false,
-    };
+    let by_rate = mu.by_rate().statement();
+    let decay = by_rate.is_some_and(|stated| stated.law == DECAY.name);
     let fast = mu.at_slip_rate(f64::MAX);
     if decay && fast != mu.at_rest() {
         words += &format!(" at rest and {fast} in fast slip");
     }
-    let by_pressure = mu.by_pressure().constants() != PressureConstants::None;
+    let by_pressure = mu.by_pressure().is_some();
     let by_rate = mu.by_rate().is_some() && !decay;
-    let by_slip = mu.by_slip().constants() != SlipConstants::None;
+    let by_slip = mu.by_slip().is_some();
     words += ", varpi = mu";
     words += if by_rate { " R(v)" } else { "" };
     words += if by_slip { " W(s)" } else { "" };

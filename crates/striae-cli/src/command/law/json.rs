@@ -1,7 +1,7 @@
 //! `striae law --json`.
 
 use serde_json::{Value, json};
-use striae_law::friction::{Friction, Law, PressureConstants, SlipConstants, SlipSurface};
+use striae_law::friction::{Friction, Law, SlipSurface};
 
 use super::analysed;
 
@@ -27,10 +27,9 @@ pub fn of_friction(title: &str, friction: &Friction, theta: &[f64]) -> Value {
     });
     let coefficient = friction.coefficient();
     let by_pressure = coefficient.by_pressure();
-    let by_pressure =
-        (by_pressure.constants() != PressureConstants::None).then(|| by_pressure.to_string());
+    let by_pressure = by_pressure.is_some().then(|| by_pressure.to_string());
     let by_slip = coefficient.by_slip();
-    let by_slip = (by_slip.constants() != SlipConstants::None).then(|| by_slip.to_string());
+    let by_slip = by_slip.is_some().then(|| by_slip.to_string());
     let by_rate = coefficient.by_rate();
     let by_rate = by_rate.is_some().then(|| by_rate.to_string());
     json!({

@@ -2,6 +2,7 @@
 
 mod admissibility;
 mod coefficient;
+mod declared;
 mod dependence;
 mod errata;
 mod laws;

@@ -1,0 +1,126 @@
+//! Values of parameters.
+
+/// A value of a parameter.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// A number.
+    Number(f64),
+    /// A list of numbers.
+    Numbers(Vec<f64>),
+    /// One of the words of the parameter.
+    Word(&'static str),
+}
+
+/// Values of parameters by their names.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Values(Vec<(&'static str, Value)>);
+
+impl Values {
+    /// Returns the values with one more.
+    pub fn with(mut self, name: &'static str, value: impl Into<Value>) -> Self {
+        self.0.push((name, value.into()));
+        self
+    }
+
+    /// Returns the values with a number, if there is one.
+    pub fn with_any(self, name: &'static str, number: Option<f64>) -> Self {
+        match number {
+            Some(number) => self.with(name, number),
+            None => self,
+        }
+    }
+
+    /// Returns a value, if it is there.
+    pub fn get(&self, name: &str) -> Option<&Value> {
+        let mut all = self.0.iter();
+        all.find(|(known, _)| *known == name)
+            .map(|(_, value)| value)
+    }
+
+    /// Returns all values in their order.
+    pub fn iter(&self) -> impl Iterator<Item = (&'static str, &Value)> {
+        self.0.iter().map(|(name, value)| (*name, value))
+    }
+
+    /// Returns a number that may be absent.
+    pub fn number_if_any(&self, name: &str) -> Option<f64> {
+        match self.get(name)? {
+            Value::Number(number) => Some(*number),
+            _ => None,
+        }
+    }
+
+    /// Returns a number.
+    ///
+    /// # Panics
+    /// When there is none of that name.
+    pub fn number(&self, name: &str) -> f64 {
+        let found = self.number_if_any(name);
+        found.expect("the law declares the number it asks for")
+    }
+
+    /// Returns a list of numbers.
+    ///
+    /// # Panics
+    /// When there is none of that name.
+    pub fn numbers(&self, name: &str) -> &[f64] {
+        let found = self.get(name).and_then(|value| match value {
+            Value::Numbers(numbers) => Some(numbers),
+            _ => None,
+        });
+        found.expect("the law declares the list it asks for")
+    }
+
+    /// Returns a word.
+    ///
+    /// # Panics
+    /// When there is none of that name.
+    pub fn word(&self, name: &str) -> &'static str {
+        let found = self.get(name).and_then(|value| match value {
+            Value::Word(word) => Some(*word),
+            _ => None,
+        });
+        found.expect("the law declares the word it asks for")
+    }
+}
+
+impl<const N: usize> From<[(&'static str, f64); N]> for Values {
+    fn from(numbers: [(&'static str, f64); N]) -> Self {
+        let numbers = numbers.into_iter();
+        Self(
+            numbers
+                .map(|(name, number)| (name, number.into()))
+                .collect(),
+        )
+    }
+}
+
+impl FromIterator<(&'static str, Value)> for Values {
+    fn from_iter<I: IntoIterator<Item = (&'static str, Value)>>(values: I) -> Self {
+        Self(values.into_iter().collect())
+    }
+}
+
+impl From<f64> for Value {
+    fn from(number: f64) -> Self {
+        Self::Number(number)
+    }
+}
+
+impl From<Vec<f64>> for Value {
+    fn from(numbers: Vec<f64>) -> Self {
+        Self::Numbers(numbers)
+    }
+}
+
+impl From<&[f64]> for Value {
+    fn from(numbers: &[f64]) -> Self {
+        Self::Numbers(numbers.to_vec())
+    }
+}
+
+impl From<&'static str> for Value {
+    fn from(word: &'static str) -> Self {
+        Self::Word(word)
+    }
+}

@@ -1,0 +1,47 @@
+//! Laws that can be called by their names.
+
+use crate::declared::Declared;
+use crate::friction::{self, Friction};
+
+/// Laws that a deck may name: those of this crate, and others that are added.
+///
+/// ```
+/// use striae_law::{Laws, declared::{Declared, POSITIVE, Parameter}, friction::Friction};
+///
+/// static SLIPPERY: Declared<Friction> = Declared {
+///     name: "slippery",
+///     summary: "A tenth of Coulomb friction.",
+///     parameters: &[Parameter::number("dry", POSITIVE, "no unit", "Coefficient when dry.")],
+///     build: |values| Friction::coulomb(0.1 * values.number("dry")),
+///     fit: None,
+/// };
+///
+/// let laws = Laws::default().with_friction(&SLIPPERY);
+/// assert_eq!(laws.friction().last().unwrap().name, "slippery");
+/// ```
+#[derive(Clone, Debug)]
+pub struct Laws {
+    friction: Vec<&'static Declared<Friction>>,
+}
+
+impl Default for Laws {
+    fn default() -> Self {
+        Self {
+            friction: friction::LAWS.to_vec(),
+        }
+    }
+}
+
+impl Laws {
+    /// Returns the laws with one more, in place of one of the same name.
+    pub fn with_friction(mut self, law: &'static Declared<Friction>) -> Self {
+        self.friction.retain(|known| known.name != law.name);
+        self.friction.push(law);
+        self
+    }
+
+    /// Returns the laws of friction.
+    pub fn friction(&self) -> &[&'static Declared<Friction>] {
+        &self.friction
+    }
+}

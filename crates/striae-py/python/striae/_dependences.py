@@ -1,0 +1,197 @@
+"""Dependences of friction as the library declares them, written by ``declared.py``."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Optional, Union
+
+from . import _check as check
+from ._check import Floats, Values
+from ._made import Made
+
+if TYPE_CHECKING:
+    from ._friction import Friction
+
+
+class Dependences(Made):
+    """Dependences of coefficients of friction."""
+
+    def _with(self, key: str, form: str, method: str, values: Values) -> Friction:
+        raise NotImplementedError
+
+    def with_power_law(
+        self,
+        exponent: float,
+        pressure: float,
+        floor: Optional[float] = None,
+    ) -> Friction:
+        """Returns the law with a dependence ``by_pressure``, in place of another one. Friction
+        ``mu p0 (p/p0)^m``, coefficients ``mu (p/p0)^(m - 1)``.
+
+        exponent: ``m``, below 1 for coefficients that fall with the pressure; 2/3 for one elastic
+            contact (no unit).
+        pressure: ``p0``, the pressure at which the coefficients are those that the law states
+            (force per area).
+        floor: pressure below which, for ``m`` below 1, friction goes to zero along a parabola,
+            with a finite slope (force per area); ``p0/1000`` by default.
+        """
+        values: Values = {
+            "exponent": check.number(exponent, "exponent"),
+            "pressure": check.number(pressure, "pressure"),
+            "floor": check.optional(floor, "floor"),
+        }
+        return self._with("by_pressure", "power-law", "with_power_law", values)
+
+    def with_adhesion(self, pressure: float, floor: Optional[float] = None) -> Friction:
+        """Returns the law with a dependence ``by_pressure``, in place of another one. Friction
+        ``mu (p + p_ad)`` with a pressure by adhesion, Derjaguin's law.
+
+        pressure: ``p_ad`` (force per area).
+        floor: pressure below which friction goes to zero along a parabola, with a finite slope
+            (force per area); ``p_ad/20`` by default.
+        """
+        values: Values = {
+            "pressure": check.number(pressure, "pressure"),
+            "floor": check.optional(floor, "floor"),
+        }
+        return self._with("by_pressure", "adhesion", "with_adhesion", values)
+
+    def with_saturation(self, shear_stress: float) -> Friction:
+        """Returns the law with a dependence ``by_pressure``, in place of another one. Friction
+        ``tau tanh(mu p/tau)``, which comes smoothly to a shear stress.
+
+        shear_stress: ``tau``. The coefficients that the law states are those of low pressures
+            (force per area).
+        """
+        values: Values = {
+            "shear_stress": check.number(shear_stress, "shear_stress"),
+        }
+        return self._with("by_pressure", "saturation", "with_saturation", values)
+
+    def with_table_by_pressure(
+        self,
+        pressures: Union[Sequence[float], Floats],
+        factors: Union[Sequence[float], Floats],
+    ) -> Friction:
+        """Returns the law with a dependence ``by_pressure``, in place of another one. Coefficients
+        times a factor by the pressure.
+
+        pressures: pressures, at least two, ascending (force per area).
+        factors: factor at each pressure: monotone and smooth between them, constant beyond the
+            first and the last (no unit).
+        """
+        values: Values = {
+            "pressures": check.numbers(pressures, "pressures"),
+            "factors": check.numbers(factors, "factors"),
+        }
+        return self._with("by_pressure", "table", "with_table_by_pressure", values)
+
+    def with_stribeck(
+        self,
+        kinetic_over_static: float,
+        slip_rate: float,
+        exponent: float = 2.0,
+        viscous: float = 0.0,
+    ) -> Friction:
+        """Returns the law with a dependence ``by_slip_rate``, in place of another one.
+        Coefficients times ``c + (1 - c) exp(-(v/v_s)^d) + k v``, Stribeck's curve.
+
+        kinetic_over_static: ``c``, coefficients in fast slip without the viscous part over those
+            at rest, which the law states (no unit).
+        slip_rate: ``v_s`` (length per time).
+        exponent: ``d`` (no unit).
+        viscous: ``k``, the viscous part over the coefficients at rest (time per length).
+        """
+        values: Values = {
+            "kinetic_over_static": check.number(kinetic_over_static, "kinetic_over_static"),
+            "slip_rate": check.number(slip_rate, "slip_rate"),
+            "exponent": check.number(exponent, "exponent"),
+            "viscous": check.number(viscous, "viscous"),
+        }
+        return self._with("by_slip_rate", "stribeck", "with_stribeck", values)
+
+    def with_logarithm(
+        self,
+        factor: float,
+        slip_rate: float,
+        limit: Optional[float] = None,
+    ) -> Friction:
+        """Returns the law with a dependence ``by_slip_rate``, in place of another one.
+        Coefficients times ``1 + a ln(1 + v/v_0)``.
+
+        factor: ``a``: positive for friction that rises with the slip rate, negative for friction
+            that falls (no unit).
+        slip_rate: ``v_0`` (length per time).
+        limit: slip rate from which on the coefficients are constant; needed where they fall
+            (length per time); none by default.
+        """
+        values: Values = {
+            "factor": check.number(factor, "factor"),
+            "slip_rate": check.number(slip_rate, "slip_rate"),
+            "limit": check.optional(limit, "limit"),
+        }
+        return self._with("by_slip_rate", "logarithm", "with_logarithm", values)
+
+    def with_table_by_slip_rate(
+        self,
+        slip_rates: Union[Sequence[float], Floats],
+        factors: Union[Sequence[float], Floats],
+    ) -> Friction:
+        """Returns the law with a dependence ``by_slip_rate``, in place of another one.
+        Coefficients times a factor by the slip rate.
+
+        slip_rates: slip rates, at least two, ascending (length per time).
+        factors: factor at each slip rate: monotone and smooth between them, constant beyond the
+            first and the last (no unit).
+        """
+        values: Values = {
+            "slip_rates": check.numbers(slip_rates, "slip_rates"),
+            "factors": check.numbers(factors, "factors"),
+        }
+        return self._with("by_slip_rate", "table", "with_table_by_slip_rate", values)
+
+    def with_exponential(self, final_over_initial: float, slip: float) -> Friction:
+        """Returns the law with a dependence ``by_accumulated_slip``, in place of another one.
+        Coefficients times ``w + (1 - w) exp(-s/s_0)``, as a surface runs in.
+
+        final_over_initial: ``w``, coefficients after long slip over those at the start, which the
+            law states (no unit).
+        slip: ``s_0``, the slip after which the difference has fallen to 1/e (length).
+        """
+        values: Values = {
+            "final_over_initial": check.number(final_over_initial, "final_over_initial"),
+            "slip": check.number(slip, "slip"),
+        }
+        return self._with("by_accumulated_slip", "exponential", "with_exponential", values)
+
+    def with_table_by_accumulated_slip(
+        self,
+        slips: Union[Sequence[float], Floats],
+        factors: Union[Sequence[float], Floats],
+    ) -> Friction:
+        """Returns the law with a dependence ``by_accumulated_slip``, in place of another one.
+        Coefficients times a factor by the accumulated slip.
+
+        slips: accumulated slips, at least two, ascending (length).
+        factors: factor after each slip: monotone and smooth between them, constant beyond the
+            first and the last (no unit).
+        """
+        values: Values = {
+            "slips": check.numbers(slips, "slips"),
+            "factors": check.numbers(factors, "factors"),
+        }
+        return self._with("by_accumulated_slip", "table", "with_table_by_accumulated_slip", values)
+
+    def with_decay(self, kinetic_over_static: float, slip_rate: float) -> Friction:
+        """Returns the law with a dependence ``decay``, in place of another one. Decay of friction
+        from rest to fast slip, ``kinetic + (static - kinetic) exp(-rate/slip_rate)``.
+
+        kinetic_over_static: coefficients in fast slip over those at rest, which the law states (no
+            unit).
+        slip_rate: rate of slip at which the difference has fallen to 1/e (length per time).
+        """
+        values: Values = {
+            "kinetic_over_static": check.number(kinetic_over_static, "kinetic_over_static"),
+            "slip_rate": check.number(slip_rate, "slip_rate"),
+        }
+        return self._with("decay", "decay", "with_decay", values)
