@@ -20,17 +20,23 @@ def drag(mu: float, modulus: float) -> st.Model:
 noise = np.random.default_rng(1).normal(size=10)
 measured = drag(mu=0.6, modulus=1.8e6).run().history[COLUMN] * (1 + 0.01 * noise)
 
+
+def linearised(constants: dict[str, float]) -> tuple[np.ndarray, np.ndarray]:
+    """Differences of the measurements from a run, and its derivatives by relative changes."""
+    run = st.differentiate(drag, constants, keep="last")
+    columns = [value * run.gradient(COLUMN, name) for name, value in constants.items()]
+    return measured - run.history[COLUMN], np.column_stack(columns)
+
+
 constants = {"mu": 0.4, "modulus": 1e6}
 for iteration in range(6):
-    run = st.differentiate(drag, constants, keep="last")
-    rest = measured - run.history[COLUMN]
-    scale = np.array(list(constants.values()))
-    jacobian = np.column_stack([run.gradient(COLUMN, name) for name in constants]) * scale
-    change, *_ = np.linalg.lstsq(jacobian, rest, rcond=None)
+    rest, jacobian = linearised(constants)
     print(iteration, constants, f"root mean square {np.sqrt(np.mean(rest**2)):.3f} N")
+    change, *_ = np.linalg.lstsq(jacobian, rest, rcond=None)
     constants = {name: value * (1 + part) for (name, value), part in zip(constants.items(), change)}
 
 # Standard deviations, from the scatter of the measurements around the fit.
+rest, jacobian = linearised(constants)
 variance = rest @ rest / (len(rest) - len(constants))
 deviation = np.sqrt(variance * np.diag(np.linalg.inv(jacobian.T @ jacobian)))
 for (name, value), relative in zip(constants.items(), deviation):
