@@ -188,7 +188,7 @@ displacement = [
         (
             "1.25",
             "0.75",
-            "must rise in their first number within the period from 0 to 0.75, but one is at 1",
+            "must ascend within the period from 0 to 0.75, but one is at 1",
         ),
         ("time = \"run\"", "time = \"step\"", ""),
         (

@@ -475,7 +475,7 @@ pub enum FaultKind {
         node: NodeId,
     },
     /// Points that do not make a curve.
-    #[error("the points of curve `{curve}` must rise in their first number {found}")]
+    #[error("the first numbers of the points of curve `{curve}` must ascend {found}")]
     BadCurve {
         /// The curve.
         curve: String,

@@ -31,7 +31,7 @@ pub(crate) fn friction(
     let by_rate = dependence(&raw.by_slip_rate, faults);
     let by_slip = dependence(&raw.by_accumulated_slip, faults);
     if let (Some(_), Some(by_rate)) = (&raw.decay, &raw.by_slip_rate) {
-        let cause = "it has both `decay` and `by_slip_rate`; give either, a decay with more \
+        let cause = "it has both `decay` and `by_slip_rate`; give one of them; a decay with more \
                      constants is `by_slip_rate = { form = \"stribeck\", .. }`";
         let cause = cause.to_owned();
         faults.push(&by_rate.span, FaultKind::Friction { cause });

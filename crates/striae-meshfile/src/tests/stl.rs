@@ -35,7 +35,7 @@ fn broken_stl_files_are_explained() {
     short.pop();
     assert_explained(
         rigid_surface(&short).map(drop),
-        ["announces 684 bytes", "has 683"],
+        ["declares 684 bytes", "has 683"],
     );
     assert_explained(rigid_surface(b"abc").map(drop), ["84", "has 3"]);
     let text = b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0\n";

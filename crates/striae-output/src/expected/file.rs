@@ -123,7 +123,7 @@ impl RawQuantity {
         };
         match (self.value, self.min, self.max, tolerance) {
             (Some(0.0), None, None, Some(Tolerance::Relative(_))) => {
-                Err("a relative tolerance of zero is meaningless: give `absolute`")
+                Err("a tolerance relative to zero is meaningless; give `absolute`")
             }
             (Some(value), None, None, Some(tolerance)) => Ok(Target::Value { value, tolerance }),
             (Some(_), None, None, None) => Err("a `value` needs `relative` or `absolute`"),

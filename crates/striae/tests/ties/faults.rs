@@ -99,7 +99,7 @@ b = { body = "lower", facets = "zmax" }
         (
             0.5,
             &twice,
-            &["tie `paste` joins facets that tie `glue` joins already"],
+            &["tie `paste` joins facets that tie `glue` already joins"],
         ),
         (
             0.5,
