@@ -2,6 +2,8 @@
 declared dependences, ``_dependences.py``: ``python crates/striae-py/declared.py``, with the
 package installed."""
 
+from __future__ import annotations
+
 import re
 from collections import Counter
 from pathlib import Path

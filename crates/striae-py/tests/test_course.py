@@ -26,7 +26,7 @@ def test_functions_of_position_and_time_are_followed() -> None:
     end = ended(body, *moved, duration=2)
     x = body.mesh.points[:, 0]
     ends = (x == 0) | (x == 2)
-    found = end["bar"].displacement[ends, 0]
+    found = end.body("bar").displacement[ends, 0]
     assert np.allclose(found, (0.02 * x + 1e-3)[ends], rtol=0, atol=1e-14)
 
 
@@ -40,7 +40,7 @@ def test_courses_are_multiples_of_targets() -> None:
         (st.Course("t^2", time="step"), 1.0),
     ):
         end = ended(body, hold, body["xmax"].displace(x=0.01, curve=course), duration=2)
-        found = end["bar"].displacement[body.mesh.points[:, 0] == 2, 0]
+        found = end.body("bar").displacement[body.mesh.points[:, 0] == 2, 0]
         assert np.allclose(found, 0.01 * expected, rtol=0, atol=1e-14), course
 
 

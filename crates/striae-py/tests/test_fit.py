@@ -145,5 +145,5 @@ def test_faults_of_measurements_have_places(tmp_path: Path) -> None:
 
 
 def test_a_law_is_a_class() -> None:
-    with pytest.raises(TypeError, match="law: one of the classes Coulomb, Orthotropic, Nap"):
+    with pytest.raises(TypeError, match="law: one of the classes Coulomb, TwoTextures, Orthotropic"):
         st.fit_friction([0], [0.1], st.Frictionless)

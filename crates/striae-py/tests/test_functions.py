@@ -184,7 +184,7 @@ def test_kernels_are_judged() -> None:
         (lambda angle: (-np.eye(2), [0, 0]), "one", "own: friction would create energy"),
         (lambda angle: (np.eye(2), [2, 0]), "one", "own: law `own` has no slip surface"),
         (turned, "two", "own: seen from the other surface force or slip differ"),
-        (lambda angle: (np.eye(2), [0.5, 0]), "two", "own: the kernel is not a smooth function"),
+        (lambda angle: (np.eye(2), [0.5, 0]), "two", "own: the kernel is no smooth function"),
         (lambda angle: (np.eye(3), [0, 0]), "one", r"own: L: it must have shape \(2, 2\)"),
         (lambda angle: (np.eye(2), [0, 0], np.ones((2, 2))), "one", "own: K: it must be regular"),
         (lambda angle: np.eye(2)[0:1], "one", "own: `L` and `eta` are needed"),

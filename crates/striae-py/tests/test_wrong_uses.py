@@ -291,7 +291,7 @@ TYPE_ERRORS: list[tuple[Callable[[], Any], str]] = [
         lambda: st.sweep(floored, {"law": 0.3}),  # type: ignore[dict-item]
         "parameter `law`: a list of values is needed, not 0.3",
     ),
-    (lambda: st.Friction(), "use Frictionless, Coulomb, Orthotropic, Nap, TwoTextures, Tabulated or OwnFriction"),
+    (lambda: st.Friction(), "use one of the laws, such as Coulomb, or OwnFriction"),
 ]
 
 

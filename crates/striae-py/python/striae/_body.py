@@ -68,7 +68,7 @@ class BodySet:
                 targets[axis] = check.varying(value, "xyz"[axis])
         along = check.curve_of(curve, "curve", *targets)
         if curve not in (None, "ramp") and all(target is None for target in targets):
-            raise refuse("curve", "components that are functions have no curve besides")
+            raise refuse("curve", "components given as functions take no curve")
         body, name = self.body.name, self.name
 
         def apply(step: native.Step) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, Literal, Optional, TypeAlias, TypeVar, Union
+from typing import Any, Literal, Optional, Protocol, TypeAlias, TypeVar, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -11,8 +11,12 @@ import numpy.typing as npt
 from . import _striae as native
 from ._errors import refuse
 
-if TYPE_CHECKING:
-    from ._course import Course
+
+class CourseLike(Protocol):
+    """A :class:`Course`, which this module cannot import."""
+
+    def _native(self) -> tuple[str, Optional[float], list[tuple[float, float]], str]: ...
+
 
 Floats: TypeAlias = npt.NDArray[np.float64]
 Ints: TypeAlias = npt.NDArray[np.int64]
@@ -21,7 +25,7 @@ Curve: TypeAlias = Union[
     Literal["ramp", "constant", "smooth"],
     Sequence[tuple[float, float]],
     Callable[[float], float],
-    "Course",
+    CourseLike,
 ]
 Motion: TypeAlias = Union[float, str, Callable[[float], float]]
 Varying: TypeAlias = Union[float, str]

@@ -36,6 +36,12 @@ def listed(given: list[tuple[str, Any]]) -> str:
     long = 6
 
     def told(value: Any) -> str:
-        return f"<{len(value)} numbers>" if isinstance(value, list) and len(value) > long else repr(value)
+        if isinstance(value, list):
+            return f"<{len(value)} numbers>" if len(value) > long else repr([plain(v) for v in value])
+        return repr(plain(value))
+
+    # Angles come back from radians with round-off.
+    def plain(value: Any) -> Any:
+        return float(f"{value:.14g}") if isinstance(value, float) else value
 
     return ", ".join(f"{name}={told(value)}" for name, value in given)
