@@ -19,6 +19,8 @@ pub enum Formulation {
 
 /// Poisson's ratio above which elements with displacements alone are too stiff.
 const LOCKING: f64 = 0.45;
+/// Difference from it that is round-off of the elastic constants, of which others are computed.
+const ROUND_OFF: f64 = 1e-9;
 
 impl Formulation {
     /// Formulation suited to a material: mean dilatation above a Poisson's ratio of 0.45 and for
@@ -29,10 +31,30 @@ impl Formulation {
         }
         let constants = material.lame_constants();
         let poissons_ratio = 0.5 * constants.lambda / (constants.lambda + constants.shear);
-        if poissons_ratio > LOCKING {
+        if poissons_ratio > LOCKING + ROUND_OFF {
             Self::MeanDilatation
         } else {
             Self::Standard
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use striae_law::bulk::LameConstants;
+
+    use super::*;
+
+    #[test]
+    fn round_off_of_the_modulus_decides_nothing() {
+        let suited = |modulus: f64, ratio: f64| {
+            let constants = LameConstants::from_youngs_modulus(modulus, ratio).unwrap();
+            Formulation::suited_to(&Material::linear_elastic(constants))
+        };
+        for step in 0..1000 {
+            let modulus = 1.7e6 + 101.3 * f64::from(step);
+            assert_eq!(suited(modulus, LOCKING), Formulation::Standard, "{modulus}");
+            assert_eq!(suited(modulus, 0.451), Formulation::MeanDilatation);
         }
     }
 }
