@@ -22,13 +22,14 @@
 use std::sync::Arc;
 
 use striae_contact::{side::Side, unknowns::Status};
+use striae_element::Formulation;
 use striae_surface::node::SurfaceNode;
 
 use crate::{
     assembly::StepContext,
     begin::begin,
     drive::{Progress, look_farther},
-    model::Procedure,
+    model::{Body, Procedure},
     newton::{
         Course, Increment, Workspace,
         neighbour::{Base, Moved, Neighbour, linearise, moved},
@@ -291,10 +292,21 @@ fn unlike(problem: &Problem, other: &Problem) -> Option<&'static str> {
     let named = named
         .filter(|((own, others), _)| own != others)
         .map(|(_, kind)| kind);
-    let meshes = problem.model.bodies.iter().zip(&other.model.bodies);
-    let mut meshes = meshes.map(|(own, other)| own.mesh.elements().eq(other.mesh.elements()));
-    named
-        .into_iter()
-        .next()
-        .or_else(|| (!meshes.all(|same| same)).then_some("the elements"))
+    let bodies = || problem.model.bodies.iter().zip(&other.model.bodies);
+    let formulations = |body: &Body| -> Vec<Formulation> {
+        let sections = 0..=body.sections.len();
+        sections
+            .map(|section| body.formulation_of(section))
+            .collect()
+    };
+    let has_other_cells =
+        bodies().any(|(own, other)| !own.mesh.elements().eq(other.mesh.elements()));
+    let has_other_formulation =
+        || bodies().any(|(own, other)| formulations(own) != formulations(other));
+    match named.into_iter().next() {
+        Some(kind) => Some(kind),
+        None if has_other_cells => Some("the elements"),
+        None if has_other_formulation() => Some("the formulation of elements"),
+        None => None,
+    }
 }

@@ -206,7 +206,7 @@ pub(crate) fn moved(
 ) -> Result<Moved, CutBack> {
     let problem = base.context.problem;
     let mut assembled = [two[0].assembled(workspace)?, two[1].assembled(workspace)?];
-    let (mut first, mut remainder): (Option<Size>, f64) = (None, 0.0);
+    let (mut first, mut remainder): (Option<Size>, f64) = (None, f64::INFINITY);
     for _ in 0..CORRECTIONS {
         let [less, more] = assembled.each_ref().map(|assembled| &assembled.residual);
         let half: Vec<f64> = more
@@ -218,8 +218,10 @@ pub(crate) fn moved(
         let correction = correction.map_err(|error| unsolved(problem, workspace, error))?;
         let size = Size::of(&correction, problem, &workspace.system().layout);
         let first = first.get_or_insert_with(|| size.max(&Size::round_off(base)));
-        remainder = size.over(first);
-        if remainder <= NOTHING {
+        let before = std::mem::replace(&mut remainder, size.over(first));
+        // Corrections that do not fall are round-off, or the tangent is not that of both neighbours,
+        // and would lead away from them.
+        if remainder <= NOTHING || remainder >= before {
             break;
         }
         for (neighbour, factor) in two.iter_mut().zip([-1.0, 1.0]) {

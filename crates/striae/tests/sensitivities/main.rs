@@ -213,3 +213,21 @@ fn a_parameter_that_changes_the_mesh_is_refused() {
         "{refused}"
     );
 }
+
+#[test]
+fn a_parameter_that_changes_the_formulation_is_refused() {
+    // Elements take mean dilatation above a Poisson's ratio of 0.45.
+    let ratio = |value: f64| -> Result<Model, Error> {
+        Ok(model(
+            BAR,
+            &[Setting::new("material.elastic.poissons_ratio", value)],
+        ))
+    };
+    let simulation = Simulation::new(ratio(0.45).unwrap()).unwrap();
+    let by = parameter("nu", 0.45, ratio).unwrap();
+    let refused = simulation.differentiated(by).run().unwrap_err().to_string();
+    assert!(
+        refused.contains("`nu` changes the formulation of elements"),
+        "{refused}"
+    );
+}
