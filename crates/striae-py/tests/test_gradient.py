@@ -62,3 +62,27 @@ def test_parameters_that_change_the_mesh_are_refused() -> None:
 
     with pytest.raises(st.ModelError, match="`parts` changes the elements"):
         st.differentiate(divided, {"parts": 2.0})
+
+
+def rubbed(mu: float, modulus: float) -> st.Model:
+    """A pad that sticks first and slips in the end, so that its force tells both constants."""
+    body = st.Body("pad", st.block(divisions=(3, 2, 2)), st.NeoHookean(modulus, 0.45))
+    floor = st.Plane("floor")
+    model = st.Model([body], [floor], [st.Pair(body["zmin"], floor, st.Coulomb(mu), name="foot")])
+    model.step("press", body["zmax"].displace(x=0, y=0, z=-0.02), increments=2)
+    model.step("drag", body["zmax"].displace(x=0.1), increments=10)
+    return model
+
+
+def test_constants_are_found_again() -> None:
+    column = "pair.foot.resultant_a.x"
+    measured = rubbed(mu=0.42, modulus=1.7e6).run().history[column]
+    found = {"mu": 0.35, "modulus": 1.4e6}
+    for _ in range(10):
+        run = st.differentiate(rubbed, found, keep="last")
+        columns = [value * run.gradient(column, name) for name, value in found.items()]
+        jacobian = np.column_stack(columns)
+        change, *_ = np.linalg.lstsq(jacobian, measured - run.history[column], rcond=None)
+        found = {name: value * (1 + part) for (name, value), part in zip(found.items(), change)}
+    assert found["mu"] == pytest.approx(0.42, rel=1e-6)
+    assert found["modulus"] == pytest.approx(1.7e6, rel=1e-6)
