@@ -201,8 +201,11 @@ impl Met {
     }
 }
 
-/// Paired facets without patches that share next to no area.
-fn without_slivers(configuration: &Configuration, paired: Vec<PairedFacets>) -> Vec<PairedFacets> {
+/// Paired facets; none where all of them share next to no area.
+pub(super) fn without_slivers(
+    configuration: &Configuration,
+    paired: Vec<PairedFacets>,
+) -> Vec<PairedFacets> {
     let is_sliver = |paired: &PairedFacets| {
         let facets = paired.sides.iter().zip(&paired.corners);
         let deformable = facets.filter(|(side, _)| configuration.pair.is_deformable(**side));

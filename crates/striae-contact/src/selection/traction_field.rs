@@ -2,7 +2,7 @@
 
 use striae_surface::node::SurfaceNode;
 
-use super::{Kept, approach::approach};
+use super::{Kept, approach::approach, gathered::without_slivers};
 use crate::{
     bedding::bedding,
     configuration::Configuration,
@@ -203,7 +203,8 @@ impl Selection {
             true
         });
         let mut left_out: Vec<(Side, SurfaceNode)> = Vec::new();
-        for paired in &paired {
+        // Slivers alone would get no share either.
+        for paired in &without_slivers(configuration, paired) {
             let gap = paired.mean_gap(configuration);
             let touching = paired.least_gap(configuration) < TOUCHING * paired.segment.area.sqrt();
             // Deeper than contact looks in this increment.
