@@ -8,7 +8,7 @@ use striae_surface::{
 };
 
 use crate::{
-    pair::{ContactPair, Geometry, local_sizes},
+    pair::{ContactPair, Enclosure, Geometry, local_sizes},
     placement::Placement,
     search::{Bounds, Tree},
     side::Side,
@@ -44,6 +44,21 @@ pub struct Snapshot<'a> {
     pub tree: Tree,
     /// Tree over the boundary edges.
     pub edge_tree: Tree,
+    /// Skin that the surface is part of, where it was asked for.
+    pub enclosed: Option<Enclosed<'a>>,
+}
+
+/// The skin that a surface is part of in one configuration.
+#[derive(Clone, Debug)]
+pub struct Enclosed<'a> {
+    /// Topology, and the facets of the surface that its facets are.
+    pub enclosure: &'a Enclosure,
+    /// Current positions of its nodes.
+    pub x: Vec<Vec3>,
+    /// Local facet size at every node.
+    pub sizes: Vec<f64>,
+    /// Tree over the facets.
+    pub tree: Tree,
 }
 
 impl<'a> Configuration<'a> {
@@ -65,6 +80,19 @@ impl<'a> Configuration<'a> {
             placement,
             elapsed: f64::INFINITY,
         }
+    }
+
+    /// Copy of the configuration with the skins that the sides are part of, by which
+    /// [`crate::interference`] knows what is inside; `positions` are those of their nodes.
+    pub fn enclosed(mut self, positions: impl Fn(Side, &Surface) -> Vec<Vec3>) -> Self {
+        for side in Side::BOTH {
+            let enclosure = self.pair.sides[side].enclosure.as_ref();
+            if let (Some(snapshot), Some(enclosure)) = (&mut self.sides[side], enclosure) {
+                let x = positions(side, &enclosure.surface);
+                snapshot.enclosed = Some(Enclosed::new(enclosure, x));
+            }
+        }
+        self
     }
 
     /// Copy of the configuration, reached in the time `elapsed`.
@@ -112,12 +140,27 @@ impl<'a> Configuration<'a> {
     }
 }
 
+impl<'a> Enclosed<'a> {
+    fn new(enclosure: &'a Enclosure, x: Vec<Vec3>) -> Self {
+        let surface = &enclosure.surface;
+        Self {
+            enclosure,
+            sizes: local_sizes(surface, &x),
+            tree: facet_tree(surface, &x),
+            x,
+        }
+    }
+}
+
+/// Tree over the facets of a surface.
+fn facet_tree(surface: &Surface, x: &[Vec3]) -> Tree {
+    let facets = surface.facets().iter();
+    let boxes = facets.map(|facet| Bounds::around(distinct_corners(facet).iter().map(|&n| x[n])));
+    Tree::new(boxes.collect())
+}
+
 impl<'a> Snapshot<'a> {
     fn new(surface: &'a Surface, x: Vec<Vec3>) -> Self {
-        let facet_boxes = surface
-            .facets()
-            .iter()
-            .map(|facet| Bounds::around(distinct_corners(facet).iter().map(|&n| x[n])));
         let edge_boxes = surface
             .boundary_edges()
             .iter()
@@ -128,8 +171,9 @@ impl<'a> Snapshot<'a> {
             normals: nodal_normals(surface, &x),
             largest_size: sizes.iter().copied().fold(0.0, f64::max),
             sizes,
-            tree: Tree::new(facet_boxes.collect()),
+            tree: facet_tree(surface, &x),
             edge_tree: Tree::new(edge_boxes.collect()),
+            enclosed: None,
             x,
         }
     }

@@ -39,7 +39,7 @@ pub use thickness::{Fibre, Thickness, fibres, lengths};
 
 use crate::{
     configuration::{Configuration, Snapshot},
-    search::{Bounds, Tree},
+    pair::Enclosure,
     segment::FACING,
     side::Side,
 };
@@ -193,9 +193,24 @@ fn inside_by(
     Side::BOTH.into_iter().flat_map(within).collect()
 }
 
-/// Position of a point relative to the facets of a side.
+/// Position of a point relative to the facets of a side; `None` where another part of its skin is
+/// nearer.
 pub fn nearest_of(snapshot: &Snapshot, x: &Vec3) -> Option<Nearest> {
-    placed(snapshot).nearest(x)
+    let Some(enclosed) = &snapshot.enclosed else {
+        return placed(snapshot).nearest(x);
+    };
+    let skin = Placed {
+        surface: &enclosed.enclosure.surface,
+        tree: &enclosed.tree,
+        x: |node| enclosed.x[node],
+    };
+    of_side_itself(enclosed.enclosure, skin.nearest(x)?)
+}
+
+/// The nearest point of a skin as one of the side; `None` if it belongs to another part.
+fn of_side_itself(enclosure: &Enclosure, nearest: Nearest) -> Option<Nearest> {
+    let facet = enclosure.facets[nearest.facet.index()]?;
+    Some(Nearest { facet, ..nearest })
 }
 
 /// Nodes and facet centres of a surface.
@@ -294,7 +309,7 @@ fn depth_inside(stage: &Stage, side: Side, spot: Spot) -> Option<Nearest> {
     let thickness = &stage.thickness.0[side.opposite()];
     let most = stage.thickness.largest(side.opposite());
     let near = other.tree.bounds()?.squared_distance(&x) <= most * most;
-    let nearest = near.then(|| placed(other).nearest(&x))??;
+    let nearest = near.then(|| nearest_of(other, &x))??;
     // Behind a part of a skin is its own body; only what faces a facet has come through it.
     let faces = || {
         let cosine =
@@ -427,16 +442,4 @@ fn of_spot(
             }
         };
     Some(interference(end, side, spot, (point, &passed), size, kind))
-}
-
-/// The box around a surface on its way.
-fn swept_box(at: &[&Snapshot; 2], facet: &[SurfaceNode; 4]) -> Bounds {
-    let corners = distinct_corners(facet).iter();
-    Bounds::around(corners.flat_map(|&node| at.map(|snapshot| snapshot.x[node])))
-}
-
-/// A tree over the swept boxes of the facets.
-fn swept_tree(at: &[&Snapshot; 2]) -> Tree {
-    let facets = at[0].surface.facets().iter();
-    Tree::new(facets.map(|facet| swept_box(at, facet)).collect())
 }

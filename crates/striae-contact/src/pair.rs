@@ -41,6 +41,20 @@ pub struct PairedSurface {
     /// one body: what is further behind a facet than half of it belongs to another one. Empty
     /// where no bound is known.
     pub thickness: Vec<f64>,
+    /// Skin that the side is part of, for sides that consist of faces.
+    pub enclosure: Option<Enclosure>,
+}
+
+/// The skin of a body that a side is part of.
+///
+/// Faces with nodes of their own, and parts of a skin, have edges beyond which nothing says what is
+/// inside the body; their skin has none.
+#[derive(Clone, Debug)]
+pub struct Enclosure {
+    /// The skin, as far as contact knows it.
+    pub surface: Surface,
+    /// Facets of the side that its facets are; `None` in other parts.
+    pub facets: Vec<Option<FacetId>>,
 }
 
 impl PairedSurface {

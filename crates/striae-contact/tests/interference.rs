@@ -64,6 +64,7 @@ fn side(geometry: Geometry) -> PairedSurface {
         stiffness: 1.0,
         texture: None,
         thickness: Vec::new(),
+        enclosure: None,
     }
 }
 

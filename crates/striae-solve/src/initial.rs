@@ -23,7 +23,7 @@ use striae_contact::{
     side::Side,
 };
 use striae_mesh::{NodeId, Vec3};
-use striae_surface::node::SurfaceNode;
+use striae_surface::{node::SurfaceNode, topology::Surface};
 
 use crate::{
     interference::thickness_with,
@@ -207,8 +207,13 @@ impl Reference {
     fn at<T>(&self, model: &Model, what: impl FnOnce(&Stage) -> T) -> T {
         let at = |body: usize, node: NodeId| model.bodies[body].mesh.positions[node.index()];
         let (pair, positions) = (&self.geometry.contact, self.positions(model));
+        let of_skin = |side: Side, skin: &Surface| {
+            let body = self.geometry.bodies[side].expect("a part of a skin has a body");
+            skin.nodes().iter().map(|node| at(body, *node)).collect()
+        };
+        let configuration = Configuration::new(pair, positions, Placement::at_rest());
         what(&Stage {
-            configuration: &Configuration::new(pair, positions, Placement::at_rest()),
+            configuration: &configuration.enclosed(of_skin),
             thickness: &thickness_with(&self.geometry, at),
         })
     }

@@ -73,9 +73,16 @@ pub fn within(problem: &Problem, pair: usize, at: Positions, share: f64) -> Vec<
     resolved_inside(&stage, share)
 }
 
-/// Configuration of a pair.
+/// Configuration of a pair, with the skins of its bodies.
 pub fn configuration<'a>(problem: &'a Problem, pair: usize, at: Positions) -> Configuration<'a> {
-    placed(problem, pair, &problem.pairs[pair].contact, at)
+    let geometry = &problem.pairs[pair];
+    placed(problem, pair, &geometry.contact, at).enclosed(|side, skin| {
+        let body = geometry.bodies[side].expect("a side that is part of a skin has a body");
+        let nodes = skin.nodes().iter();
+        nodes
+            .map(|&node| at.nodes[problem.node(body, node)])
+            .collect()
+    })
 }
 
 /// Configuration of a pair of the problem with another search distance.

@@ -15,13 +15,13 @@ pub(crate) use frame::Frame;
 pub(crate) use nodes::extent;
 pub use painted::Undirected;
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use striae_contact::{
     interference::Fibre,
-    pair::{ContactPair, Geometry, PairedSurface},
+    pair::{ContactPair, Enclosure, Geometry, PairedSurface},
 };
 use striae_element::{ElementFault, Elements};
-use striae_mesh::{Face, NodeId, Vec3};
+use striae_mesh::{Face, FacetId, NodeId, Vec3};
 use striae_surface::{
     texture::{Conditioning, TextureError},
     topology::Surface,
@@ -275,6 +275,7 @@ pub(crate) fn pair_geometry(model: &Model, pair: &Pair) -> Result<PairGeometry, 
             stiffness: f64::INFINITY,
             texture: None,
             thickness: Vec::new(),
+            enclosure: None,
         }),
         ContactSurface::Rigid(surface) => {
             rigid = Some(surface.0);
@@ -285,6 +286,7 @@ pub(crate) fn pair_geometry(model: &Model, pair: &Pair) -> Result<PairGeometry, 
                 stiffness: f64::INFINITY,
                 texture: None,
                 thickness: Vec::new(),
+                enclosure: None,
             })
         }
     };
@@ -396,5 +398,29 @@ fn deformable(
         stiffness: body_model.modulus_at(faces),
         texture: None,
         thickness: Vec::new(),
+        enclosure: feature_angle.map(|_| enclosure(model, body, faces)),
+    }
+}
+
+/// The faces of a body that any pair knows by its faces, of which a side has some.
+fn enclosure(model: &Model, body: usize, own: &[Face]) -> Enclosure {
+    let by_faces = model
+        .pairs
+        .iter()
+        .filter(|pair| pair.feature_angle.is_some());
+    let sides = by_faces.flat_map(Pair::surfaces);
+    let known = sides.filter_map(|side| match side {
+        ContactSurface::Deformable { body: of, faces } if of.0 == body => Some(faces),
+        _ => None,
+    });
+    let faces: BTreeSet<Face> = known.flatten().chain(own).copied().collect();
+    let facets = own.iter().enumerate();
+    let facets: HashMap<Face, FacetId> =
+        facets.map(|(at, face)| (*face, FacetId::new(at))).collect();
+    let mesh = &model.bodies[body].mesh;
+    let corners: Vec<[NodeId; 4]> = faces.iter().map(|face| mesh.face_nodes(*face)).collect();
+    Enclosure {
+        surface: Surface::new(&corners),
+        facets: faces.iter().map(|face| facets.get(face).copied()).collect(),
     }
 }

@@ -85,9 +85,12 @@ fn local_pair(mut pair: PairGeometry, numbers: &Numbers) -> PairGeometry {
             continue;
         };
         let number = |node| numbers.held_in_mesh(body, node);
-        let geometry = &mut pair.contact.sides[side].geometry;
-        if let Geometry::Deformable(surface) = geometry {
-            *geometry = Geometry::Deformable(surface.clone().renumbered(number));
+        let of_side = &mut pair.contact.sides[side];
+        if let Geometry::Deformable(surface) = &mut of_side.geometry {
+            *surface = surface.clone().renumbered(number);
+        }
+        if let Some(enclosure) = &mut of_side.enclosure {
+            enclosure.surface = enclosure.surface.clone().renumbered(number);
         }
         for face in &mut pair.faces[side] {
             *face = face.and_then(|face| numbers.face(body, face));

@@ -164,3 +164,111 @@ fn advice_says_what_may_touch_and_what_is_thin() {
         "{warning}"
     );
 }
+
+/// A block that is pushed over the edge of another one.
+const OVER_AN_EDGE: &str = r#"
+title = "A block that is pushed over an edge"
+[[material]]
+name = "soft"
+law = "neo-hookean"
+youngs_modulus = 1
+poissons_ratio = 0.3
+[[material]]
+name = "stiff"
+law = "neo-hookean"
+youngs_modulus = 100
+poissons_ratio = 0.3
+[[body]]
+name = "lower"
+material = "soft"
+mesh = { generator = "block", size = [1, 1, 0.6], divisions = [3, 3, 2] }
+[[body]]
+name = "upper"
+material = "stiff"
+mesh = { generator = "block", origin = [0.45, 0.15, 0.6], size = [0.5, 0.7, 0.4], divisions = [2, 4, 2] }
+[contact]
+all = true
+friction = { law = "coulomb", mu = 0.3 }
+[[step]]
+name = "press"
+increments = 2
+displacement = [
+    { body = "lower", nodes = "zmin", x = 0, y = 0, z = 0 },
+    { body = "upper", nodes = "zmax", x = 0, y = 0, z = -0.03 },
+]
+[[step]]
+name = "push"
+increments = 8
+displacement = [{ body = "upper", nodes = "zmax", x = 0.35 }]
+"#;
+
+/// A law of two faces, which makes pairs of parts of the bodies.
+const OF_FACES: &str = r#"
+[[contact.between]]
+a = "lower.zmax"
+b = "upper.zmin"
+friction = { law = "coulomb", mu = 0.3 }
+"#;
+
+#[test]
+fn laws_of_parts_change_nothing_where_they_are_the_same() {
+    let parts = format!("{OVER_AN_EDGE}{OF_FACES}");
+    let [whole, parts] = [OVER_AN_EDGE, &parts].map(|text| {
+        let deck = deck::parse(text, "deck", Path::new("")).unwrap_or_else(|f| panic!("{f}"));
+        let run = Simulation::of(deck).unwrap().run().unwrap();
+        assert_eq!(run.ending, Ending::Completed);
+        run.results().positions("upper").unwrap().to_vec()
+    });
+    for (one, other) in whole.iter().zip(&parts) {
+        assert!((one - other).norm() < 1e-12, "{one} {other}");
+    }
+}
+
+/// Bodies with a common edge, where deformed facets share next to no area.
+const COMMON_EDGE: &str = r#"
+title = "A wall beside a floor, with a common edge"
+[[material]]
+name = "soft"
+law = "neo-hookean"
+youngs_modulus = 1
+poissons_ratio = 0.3
+[[material]]
+name = "stiff"
+law = "neo-hookean"
+youngs_modulus = 12
+poissons_ratio = 0.3
+[[body]]
+name = "floor"
+material = "stiff"
+mesh = { generator = "block", origin = [0, 0, -0.6], size = [1, 1, 0.6], divisions = [3, 2, 4] }
+[[body]]
+name = "wall"
+material = "stiff"
+mesh = { generator = "block", origin = [-0.6, 0, 0], size = [0.6, 1, 0.8], divisions = [2, 4, 2] }
+[[body]]
+name = "block"
+material = "soft"
+mesh = { generator = "block", size = [1, 1, 0.8], divisions = [2, 2, 2] }
+[contact]
+all = true
+friction = { law = "coulomb", mu = 0.2 }
+[[step]]
+name = "press"
+increments = 1
+displacement = [
+    { body = "block", nodes = "zmax", z = -0.004 },
+    { body = "block", nodes = "xmax", x = -0.004 },
+    { body = "block", nodes = "ymin", y = 0 },
+    { body = "floor", nodes = "zmin", x = 0, y = 0, z = 0 },
+    { body = "wall", nodes = "xmin", x = 0, y = 0, z = 0 },
+]
+"#;
+
+#[test]
+fn slivers_along_a_common_edge_are_no_contact_that_was_missed() {
+    let deck = deck::parse(COMMON_EDGE, "deck", Path::new("")).unwrap_or_else(|f| panic!("{f}"));
+    let run = Simulation::of(deck).unwrap().run().unwrap();
+    assert_eq!(run.ending, Ending::Completed);
+    let edge = run.results().pair("floor-wall").unwrap();
+    assert_eq!(edge.sides[0].force.norm(), 0.0);
+}

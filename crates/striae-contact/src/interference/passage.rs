@@ -6,13 +6,16 @@
 //! in, the passage is one of the straight lines only; if it comes out on the other side,
 //! it has gone through the body.
 
-use striae_mesh::{FacetId, Vec3};
-use striae_surface::node::SurfaceNode;
+use striae_mesh::Vec3;
+use striae_surface::{
+    node::SurfaceNode,
+    topology::{Surface, distinct_corners},
+};
 
 use super::{
     Spot, located,
     nearest::{Nearest, Placed, Standing, triangles},
-    swept_tree,
+    of_side_itself,
     triangle::{Way, passages},
 };
 use crate::{
@@ -23,8 +26,38 @@ use crate::{
 /// A side between two configurations.
 pub(super) struct Moving<'a> {
     at: [&'a Snapshot<'a>; 2],
+    /// The side or, where it is known, the skin that it is part of.
+    skin: [Skin<'a>; 2],
     tree: Tree,
     thickness: f64,
+}
+
+/// A surface in one configuration.
+#[derive(Clone, Copy)]
+struct Skin<'a> {
+    surface: &'a Surface,
+    x: &'a [Vec3],
+    sizes: &'a [f64],
+}
+
+impl<'a> Skin<'a> {
+    fn of(side: &'a Snapshot<'a>) -> Self {
+        let whole = side.enclosed.as_ref();
+        let own = Self {
+            surface: side.surface,
+            x: &side.x,
+            sizes: &side.sizes,
+        };
+        whole.map_or(own, |whole| Self {
+            surface: &whole.enclosure.surface,
+            x: &whole.x,
+            sizes: &whole.sizes,
+        })
+    }
+
+    fn corners(&self, facet: u32) -> &'a [SurfaceNode; 4] {
+        &self.surface.facets()[facet as usize]
+    }
 }
 
 /// A passage through a facet.
@@ -50,9 +83,11 @@ const MOST_STEPS: f64 = 64.0;
 
 impl<'a> Moving<'a> {
     pub(super) fn new(at: [&'a Snapshot<'a>; 2], thickness: f64) -> Self {
+        let skin = at.map(Skin::of);
         Self {
-            tree: swept_tree(&at),
+            tree: swept_tree(&skin),
             at,
+            skin,
             thickness,
         }
     }
@@ -95,20 +130,28 @@ impl<'a> Moving<'a> {
         let ways: Vec<f64> = out.map(|p| p.normal.normalize().dot(&normal)).collect();
         let end = self.placed(1.0).nearest(&path[1])?;
         if ways.iter().any(|cosine| *cosine < OPPOSITE) {
-            return Some(Through::Body(end));
+            return self.of_side(end).map(Through::Body);
         }
         if end.standing == Standing::Front && ways.iter().any(|cosine| *cosine > 0.0) {
             return None;
         }
         let deepest = self.deepest(path, since, self.steps(path, first))?;
-        Some(Through::Surface(deepest))
+        self.of_side(deepest).map(Through::Surface)
+    }
+
+    /// A point of the skin as one of the side; `None` if it belongs to another part.
+    fn of_side(&self, nearest: Nearest) -> Option<Nearest> {
+        match &self.at[1].enclosed {
+            Some(enclosed) => of_side_itself(enclosed.enclosure, nearest),
+            None => Some(nearest),
+        }
     }
 
     fn passages(&self, path: &[Vec3; 2], near: &[u32]) -> Vec<Passage> {
         let mut all = Vec::new();
         for &facet in near {
-            let corners = self.at[0].corners(FacetId(facet));
-            let [start, end] = self.at.map(|at| triangles(&corners, |node| at.x[node]));
+            let corners = self.skin[0].corners(facet);
+            let [start, end] = self.skin.map(|at| triangles(corners, |node| at.x[node]));
             for (first, last) in start.into_iter().zip(end) {
                 for (time, way) in passages(path, &[first, last]) {
                     let [a, b, c] = [0, 1, 2].map(|k: usize| first[k].lerp(&last[k], time));
@@ -122,7 +165,7 @@ impl<'a> Moving<'a> {
     }
 
     fn placed(&self, time: f64) -> Placed<'_, impl Fn(SurfaceNode) -> Vec3> {
-        let at = self.at;
+        let at = self.skin;
         Placed {
             surface: at[0].surface,
             tree: &self.tree,
@@ -132,10 +175,10 @@ impl<'a> Moving<'a> {
 
     /// Steps that follow a point over the facets near it.
     fn steps(&self, path: &[Vec3; 2], facet: u32) -> usize {
-        let node = self.at[0].corners(FacetId(facet))[0].index();
-        let own = self.at[1].x[node] - self.at[0].x[node];
-        let motion = (path[1] - path[0] - own).norm();
-        (STEPS * motion / self.at[1].sizes[node])
+        let [start, end] = self.skin;
+        let node = start.corners(facet)[0];
+        let motion = (path[1] - path[0] - (end.x[node] - start.x[node])).norm();
+        (STEPS * motion / end.sizes[node])
             .ceil()
             .clamp(1.0, MOST_STEPS) as usize
     }
@@ -153,4 +196,16 @@ impl<'a> Moving<'a> {
         }
         deepest
     }
+}
+
+/// The box around a facet on its way.
+fn swept_box(at: &[Skin; 2], facet: &[SurfaceNode; 4]) -> Bounds {
+    let corners = distinct_corners(facet).iter();
+    Bounds::around(corners.flat_map(|&node| at.map(|skin| skin.x[node])))
+}
+
+/// A tree over the swept boxes of the facets.
+fn swept_tree(at: &[Skin; 2]) -> Tree {
+    let facets = at[0].surface.facets().iter();
+    Tree::new(facets.map(|facet| swept_box(at, facet)).collect())
 }

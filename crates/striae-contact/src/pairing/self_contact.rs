@@ -159,6 +159,7 @@ mod tests {
             stiffness: 1.0,
             texture: None,
             thickness,
+            enclosure: None,
         };
         let of_facets = if known {
             vec![thickness; facets.len()]

@@ -9,7 +9,8 @@
 //! ```
 //!
 //! A side turned inside out has nodes of the second kind only. Farther nodes do not count,
-//! as the far half of a closed surface looks away from everything.
+//! as the far half of a closed surface looks away from everything. Sides that consist of faces are
+//! not judged: each node looks for what faces it, and some faces of a skin always look away.
 
 use striae_contact::{
     interference::{Stage, nearest_of},
@@ -39,6 +40,9 @@ pub struct Turned {
 /// The nearest node of a pair whose sides look away from each other; `None` where some nodes
 /// face each other.
 pub fn turned(model: &Model, pair: PairId) -> Option<Turned> {
+    if model.pairs[pair.0].feature_angle.is_some() {
+        return None;
+    }
     let reference = Reference::new(model, pair)?;
     let (side, node, at) = reference.at(model, |stage| {
         let seen: Vec<Seen> = Side::BOTH

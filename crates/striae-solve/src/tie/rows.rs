@@ -322,6 +322,7 @@ pub(super) fn contact_pair(sides: [(&Mesh, &[Face]); 2], within: Option<f64>) ->
         PairedSurface {
             geometry: Geometry::Deformable(Surface::new(&facets)),
             thickness: Vec::new(),
+            enclosure: None,
             stiffness: 1.0,
             texture: None,
         }
