@@ -16,7 +16,7 @@ use crate::scenes::{
     vtu::Grid,
 };
 
-use super::{Findings, sizes::sizes};
+use super::{Findings, sizes::sizes_at_places};
 
 /// Largest depth over the size of a facet.
 pub const DEPTH: f64 = 0.1;
@@ -59,8 +59,8 @@ fn deformable(
 ) {
     let solid = Solid::new(&body.points, &body.cells);
     let facing = Surface::new((0..other.cells.len()).map(|cell| other.corners(cell)));
-    let own_sizes = sizes(own);
-    let other_sizes = sizes(other);
+    let own_sizes = sizes_at_places(own);
+    let other_sizes = sizes_at_places(other);
     let largest = other_sizes.iter().copied().fold(0.0, f64::max);
     let mut worst: f64 = 0.0;
     for (node, &x) in own.points.iter().enumerate() {
@@ -148,7 +148,7 @@ fn rigid(
         }
         RigidShape::Head(..) => return,
     };
-    let sizes = sizes(grid);
+    let sizes = sizes_at_places(grid);
     for (node, &x) in grid.points.iter().enumerate() {
         let depth = below(local(x));
         findings.note("depth", depth / (DEPTH * sizes[node]), || {
