@@ -27,12 +27,13 @@ const SIDES_OF_8: [&[usize]; 6] = [
     &[0, 4, 7, 3],
     &[1, 2, 6, 5],
 ];
+/// As VTK has wedges, with the normal of the first triangle outward.
 const SIDES_OF_6: [&[usize]; 5] = [
-    &[0, 2, 1],
-    &[3, 4, 5],
-    &[0, 1, 4, 3],
-    &[1, 2, 5, 4],
-    &[2, 0, 3, 5],
+    &[0, 1, 2],
+    &[3, 5, 4],
+    &[0, 3, 4, 1],
+    &[1, 4, 5, 2],
+    &[2, 5, 3, 0],
 ];
 const SIDES_OF_5: [&[usize]; 5] = [
     &[0, 3, 2, 1],
@@ -150,7 +151,7 @@ mod tests {
         let mut pyramid = vec![[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
         pyramid.push([0.3, 0.4, 1.0]);
         let wedge = [0.0, 1.0]
-            .map(|z| [[0.0, 0.0, z], [1.0, 0.0, z], [0.0, 1.0, z]])
+            .map(|z| [[0.0, 0.0, z], [0.0, 1.0, z], [1.0, 0.0, z]])
             .concat();
         let cases = [(ten(), 0.5 * third), (pyramid, third), (wedge, 0.5)];
         for (points, expected) in cases {
@@ -164,6 +165,16 @@ mod tests {
             assert!(inside([0.2, 0.25, 0.3]) && !inside([0.9, 0.9, 0.3]));
             let sides = boundary(&[cell]);
             assert_eq!(sides.iter().flatten().max(), Some(&(points.len() - 1)));
+            let within = |side: &Vec<usize>| -> f64 {
+                let fan = side[1..].windows(2);
+                let cones = fan.map(|edge| {
+                    let [a, b, c] = [side[0], edge[0], edge[1]].map(|i| points[i]);
+                    dot(a, cross(b, c)) / 6.0
+                });
+                cones.sum()
+            };
+            let found: f64 = sides.iter().map(within).sum();
+            assert!((found - expected).abs() < 1e-12, "sides look outward");
         }
     }
 
