@@ -218,7 +218,7 @@ impl Friction<'_> {
     fn continued(&self) -> [TangentialRow; 2] {
         let z = &self.z;
         let radius = self.continued_radius();
-        let direction = Vector2::new(z[0].re, z[1].re).normalize();
+        let (_, direction) = polar(Vector2::new(z[0].re, z[1].re));
         let along = Q::combination([(direction.x, &z[0]), (direction.y, &z[1]), (-1.0, &radius)]);
         let across = |v: &[Q; 2]| Q::combination([(direction.x, &v[1]), (-direction.y, &v[0])]);
         let second = match self.mobility {
@@ -282,6 +282,13 @@ fn along(w: &[Q; 2], z: &[Q; 2], y: &Q, limit: &Q, begins: bool) -> [TangentialR
 /// once.
 const BEGINNING: f64 = 0.3;
 
+/// Length and direction of a vector, which may be so short that the square of its length is zero:
+/// what opens is left with tractions that fade away.
+fn polar(v: Vector2<f64>) -> (f64, Vector2<f64>) {
+    let length = v.x.hypot(v.y);
+    (length, v / length)
+}
+
 /// `f beta` for `|z|` and its part along `y`, by which the tangent of a node is reduced along `y`.
 fn reduction(length: f64, along: f64, radius: f64, begins: bool) -> f64 {
     // The last bound avoids 0/0 at a node that has neither traction nor friction.
@@ -315,8 +322,8 @@ fn damping(length: f64, along: f64, radius: f64) -> f64 {
 fn slip(z: &[Q; 2], y: &[Q; 2], limit: &Q, begins: bool) -> [TangentialRow; 2] {
     let zv = Vector2::new(z[0].re, z[1].re);
     let yv = Vector2::new(y[0].re, y[1].re);
-    let (length, radius) = (yv.norm(), limit.re);
-    let direction = yv / length;
+    let (length, direction) = polar(yv);
+    let radius = limit.re;
     // `F = z y/(..)` reduces the tangent along `z`; at the solution `z` is along `y`.
     let reduced = reduction(zv.norm(), zv.dot(&direction), radius, begins);
     let along = zv.dot(&direction);
@@ -336,4 +343,22 @@ fn slip(z: &[Q; 2], y: &[Q; 2], limit: &Q, begins: bool) -> [TangentialRow; 2] {
         let residual = zv[at] - radius * direction[at];
         (Field::Traction, residual, row.slope)
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_fades_away_has_a_direction() {
+        for size in [1.0, 1e-200, 4e-309] {
+            let (length, direction) = polar(Vector2::new(3.0, -4.0) * size);
+            assert!((length / size - 5.0).abs() < 1e-6, "{length}");
+            assert!((direction - Vector2::new(0.6, -0.8)).norm() < 1e-6);
+        }
+        let [z, y] = [1e-309, -1e-309].map(|z| [Q::constant(z), Q::constant(-0.5 * z)]);
+        for (_, residual, row) in slip(&z, &y, &Q::constant(2e-310), false) {
+            assert!(residual.is_finite() && row.iter().all(|slope| slope.is_finite()));
+        }
+    }
 }
