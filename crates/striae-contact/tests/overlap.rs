@@ -159,6 +159,18 @@ fn a_body_inside_another_one_is_found_from_both_and_touching_ones_are_not() {
     assert_eq!(PlacedSkins::new(&skins, &x).overlaps(none), []);
 }
 
+#[test]
+fn depth_at_the_edge_of_a_sheet_is_over_the_face_that_is_pressed() {
+    let lower = block([-0.5, -0.5, 0.0], [2.0; 3], [8, 8, 8]);
+    let sheet = block([0.0, 0.0, 1.98], [1.0, 1.0, 0.06], [4, 4, 1]);
+    let (skins, found) = moved(&[lower, sheet], |x| *x);
+    let of_sheet: Vec<&Overlap> = found.iter().filter(|o| skins.body(o.spot) == 1).collect();
+    assert_eq!(of_sheet.len(), 25 + 16);
+    for overlap in of_sheet {
+        assert!((overlap.size - 0.25).abs() < 1e-12, "{overlap:?}");
+    }
+}
+
 proptest! {
     #[test]
     fn no_motion_without_overlap_makes_one(

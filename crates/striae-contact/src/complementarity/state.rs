@@ -11,6 +11,7 @@ use crate::{
     configuration::Configuration,
     kinematics::{Kinematics, Presence, Pressure},
     quantity::Quantity,
+    side::Side,
     term::{Lanes, Source, gradient, parts, variable3},
     traction::{Cap, in_frame, on_lanes, push_textures},
     unknown::{Numbering, Unknown},
@@ -59,6 +60,7 @@ pub(super) struct NodeState<'a> {
     /// Friction law.
     pub(super) friction: &'a Friction,
     numbering: Numbering,
+    faces_itself: bool,
     prescribed: &'a Prescribed,
     /// Lanes that the quantities depend on.
     pub(super) lanes: Lanes<'a>,
@@ -127,6 +129,7 @@ impl<'a> NodeState<'a> {
             node,
             friction,
             numbering,
+            faces_itself: configuration.pair.is_self_contact(),
             prescribed,
             lanes,
             gap: Q::variable(gap.value, GAP),
@@ -184,34 +187,29 @@ impl<'a> NodeState<'a> {
         self.node.kinematics.bounding_pressure(p)
     }
 
-    /// Returns whether a triple is the position of the node itself or of a node of the other side.
-    /// Neighbours on its own side have rows of their own, so their freedom to move does not make
-    /// room for one more.
-    pub(super) fn answers(&self, first: u32) -> bool {
-        match self.numbering.unknown(first) {
-            Unknown::Position { side, node, .. } => {
-                side != self.node.side || node == self.node.node
-            }
-            Unknown::Traction { .. } => false,
-        }
-    }
-
-    /// Returns whether a component of a triple is such a position and not prescribed.
-    pub(super) fn is_free_position(&self, first: u32, axis: usize) -> bool {
-        match self.numbering.unknown(first) {
-            Unknown::Position { side, node, .. } => {
-                self.answers(first) && !self.prescribed[side][3 * node.index() + axis]
-            }
-            Unknown::Traction { .. } => false,
-        }
-    }
-
-    /// Returns whether a free position changes the gap.
+    /// Returns whether a free position of the node itself or of a node that it faces changes the gap.
+    /// Neighbours have rows of their own, so their freedom to move does not make room for one more.
     pub(super) fn is_free(&self) -> bool {
         let reaches = &self.node.kinematics.reaches;
-        reaches.iter().any(|(first, slope)| {
-            (0..3).any(|axis| slope[axis].abs() > FIXED && self.is_free_position(*first, axis))
+        reaches.iter().any(|(first, reach)| {
+            let Unknown::Position { side, node, .. } = self.numbering.unknown(*first) else {
+                return false;
+            };
+            let is_free = |axis: usize| !self.prescribed[side][3 * node.index() + axis];
+            let answers =
+                node == self.node.node && side == self.node.side || self.is_opposite(side, reach);
+            answers && (0..3).any(|axis| reach[axis].abs() > FIXED && is_free(axis))
         })
+    }
+
+    /// Returns whether a node of a side is on a surface that the node faces, by the derivative of
+    /// the gap by its position: in self-contact, both are on one side, and what faces the node
+    /// opens the gap where it moves along the normal of the node.
+    fn is_opposite(&self, side: Side, reach: &Vec3) -> bool {
+        match self.faces_itself {
+            true => reach.dot(&self.node.frame.n.value) > 0.0,
+            false => side != self.node.side,
+        }
     }
 
     /// `varpi` at a slip rate.

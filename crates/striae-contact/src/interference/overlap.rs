@@ -26,7 +26,10 @@ use striae_surface::{
 };
 
 use super::{Spot, located, nearest::triangles, spots, triangle};
-use crate::search::{Bounds, Tree};
+use crate::{
+    search::{Bounds, Tree},
+    segment::FACING,
+};
 
 /// The skins of bodies as one surface.
 #[derive(Clone, Debug)]
@@ -48,7 +51,7 @@ pub struct Overlap {
     pub facet: FacetId,
     /// Distance from there.
     pub depth: f64,
-    /// The smaller one of the facet sizes there.
+    /// The smaller one of the facet sizes there, of facets that face each other.
     pub size: f64,
 }
 
@@ -202,15 +205,25 @@ impl<'a> PlacedSkins<'a> {
             square
         });
         let (square, facet) = best?;
-        let size = |facet: &FacetId| (0.5 * self.area(*facet).norm()).sqrt();
-        let sizes = around.iter().chain([&facet]).map(size);
         judged(spot, facet).then(|| Overlap {
             spot,
             point: *point,
             facet,
             depth: square.sqrt(),
-            size: sizes.fold(f64::INFINITY, f64::min),
+            size: self.size(around, facet),
         })
+    }
+
+    /// The smaller one of the sizes of a facet and of those around a point that face it: the end of
+    /// a sheet is finer than what is pressed at its edge. All count where none does.
+    fn size(&self, around: &[FacetId], facet: FacetId) -> f64 {
+        let normal = self.area(facet).normalize();
+        let faces = |area: &Vec3| area.dot(&normal) <= FACING * area.norm();
+        let areas: Vec<Vec3> = around.iter().map(|&facet| self.area(facet)).collect();
+        let is_any = areas.iter().any(faces);
+        let own = areas.iter().filter(|area| !is_any || faces(area));
+        let least = own.map(Vec3::norm).fold(self.area(facet).norm(), f64::min);
+        (0.5 * least).sqrt()
     }
 
     fn nearest(&self, facet: FacetId, x: &Vec3) -> Vec3 {
