@@ -106,8 +106,8 @@ pub enum CutBack {
         /// Motion of one side relative to the other.
         way: f64,
     },
-    /// A body has gone into itself or another one, where no pair lets them touch.
-    #[error("{}", overlap_text(body, *node, other, *depth))]
+    /// A body has gone into itself or another one, where no contact kept them apart.
+    #[error("{}", overlap_text([body, other], *node, *depth, *is_joined))]
     Overlap {
         /// Name of the body that comes inside.
         body: String,
@@ -119,6 +119,8 @@ pub enum CutBack {
         depth: f64,
         /// Position of the point at the start of the increment.
         start: Start,
+        /// `true` if the body may touch itself there.
+        is_joined: bool,
     },
     /// Friction pushes a node along its slip.
     #[error(
@@ -242,14 +244,22 @@ pub enum Start {
     Inside,
 }
 
-fn overlap_text(body: &str, node: striae_mesh::NodeId, other: &str, depth: f64) -> String {
+fn overlap_text(
+    [body, other]: [&str; 2],
+    node: striae_mesh::NodeId,
+    depth: f64,
+    is_joined: bool,
+) -> String {
     let through = match body == other {
         true => format!("body `{body}` passes through itself: {node} is {depth:.3e} inside"),
         false => format!("{node} of `{body}` is {depth:.3e} inside `{other}`"),
     };
-    format!(
-        "{through}, and no pair joins the surfaces there; let everything touch (`all = true` of `[contact]`), add a pair, or keep them apart"
-    )
+    match is_joined {
+        true => format!("{through}, more than half its facets; refine the mesh there"),
+        false => format!(
+            "{through}, and no pair joins the surfaces there; let everything touch (`all = true` of `[contact]`), add a pair, or keep them apart"
+        ),
+    }
 }
 
 /// Remedy for a linear system without a solution.
@@ -300,7 +310,11 @@ impl CutBack {
     pub fn remedy(&self) -> Remedy {
         match self {
             Self::Free { .. } => Remedy::None,
-            Self::Overlap { start, .. } if *start == Start::Inside => Remedy::None,
+            Self::Overlap {
+                start: Start::Inside,
+                is_joined: false,
+                ..
+            } => Remedy::None,
             Self::NotBridged { gap, .. } if *gap <= 0.0 => Remedy::None,
             _ => Remedy::SmallerIncrement,
         }

@@ -35,6 +35,8 @@ pub(crate) struct Skin {
     paired: Vec<Option<[usize; 2]>>,
     /// Bodies that ties join, the lower number first.
     tied: HashSet<[usize; 2]>,
+    /// Bodies whose faces may touch each other.
+    self_contact: HashSet<usize>,
 }
 
 /// A body inside itself or another one.
@@ -50,6 +52,8 @@ pub struct BodyOverlap {
     pub other: usize,
     /// Depth at the start of the increment.
     pub before: f64,
+    /// `true` if the body may touch itself there.
+    pub is_joined: bool,
 }
 
 impl Skin {
@@ -78,6 +82,7 @@ impl Skin {
             sides: sides(model, &surface, &first),
             paired: model.pairs.iter().map(bodies_of).collect(),
             tied: tied.map(|[a, b]| [a.min(b), a.max(b)]).collect(),
+            self_contact: model.pairs.iter().filter_map(touches_itself).collect(),
             skins: Skins { surface, bodies },
         }
     }
@@ -147,6 +152,17 @@ fn sides(model: &Model, surface: &Surface, first: &[usize]) -> Vec<Vec<(usize, S
     sides
 }
 
+/// Body whose faces a pair lets touch each other.
+fn touches_itself(pair: &Pair) -> Option<usize> {
+    match (&pair.a, &pair.b) {
+        (ContactSurface::Deformable { body, .. }, ContactSurface::Itself) => Some(body.0),
+        _ => {
+            let [a, b] = bodies_of(pair)?;
+            (a == b && pair.feature_angle.is_some()).then_some(a)
+        }
+    }
+}
+
 /// Both bodies of a pair, the lower number first; `None` against a rigid surface.
 fn bodies_of(pair: &Pair) -> Option<[usize; 2]> {
     match (&pair.a, &pair.b) {
@@ -179,12 +195,14 @@ pub(crate) fn overlaps(skin: &Skin, share: &Share, [start, end]: [&[Vec3]; 2]) -
             let before = depth(&before, found.spot).map_or(0.0, |known| known.depth);
             let is_meant = || depth(&meshed, found.spot).is_some_and(|known| known.share() > SHARE);
             let (body, node) = skin.nodes[skin.skins.node(found.spot)];
+            let other = skin.skins.bodies[found.facet.index()];
             (found.depth > before * (1.0 + 1e-9) && !is_meant()).then(|| BodyOverlap {
                 found,
                 body,
                 node,
-                other: skin.skins.bodies[found.facet.index()],
+                other,
                 before,
+                is_joined: body == other && skin.self_contact.contains(&body),
             })
         })
         .collect()

@@ -133,6 +133,7 @@ pub(super) fn overlap(setting: &Setting, trial: &Trial) -> Result<Vec<BodyOverla
             true => Start::Inside,
             false => Start::Apart,
         },
+        is_joined: worst.is_joined,
     })
 }
 
