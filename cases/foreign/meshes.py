@@ -82,7 +82,7 @@ def belts():
     half = straight((0.5, -0.2), (0.5, 0), 4) + arc((0, 0), 0.5, 0, 180, 60)
     half += straight((-0.5, 0), (-0.5, -0.2), 4) + [((-0.5, -0.2), (0, -1))]
     strip("belt-half.inp", half, 0.005, 1, 0.1, 1)
-    quarter = straight((0.55, -0.3), (0.55, 0), 6) + arc((0, 0), 0.55, 0, 90, 22)
+    quarter = straight((0.55, -0.3), (0.55, 0), 6) + arc((0, 0), 0.55, 0, 90, 20)
     quarter += straight((0, 0.55), (-0.3, 0.55), 6) + [((-0.3, 0.55), (-1, 0))]
     strip("belt-quarter.inp", quarter, 0.05, 2, 0.2, 1)
     count = 240
