@@ -32,7 +32,7 @@ pub fn page(outcomes: &[Outcome<'_>]) -> String {
          {} runs: {stopped} stopped, {cut} had increments that were cut. {compared} values are \
          compared: {} are within the band that the discretisation explains, {} are off and \
          explained below, {} are off without an explanation.\n\n\
-         `cargo xtask suite` runs the [decks]({DECKS}) one after the other on one thread and writes \
+         `cargo xtask suite` runs the [decks]({DECKS}), on one thread each, and writes \
          this page; seconds are those of the machine it was written on, with others at work.\n\n\
          ## Values\n\n{}\n\
          `other programs` are means or results of programs, `closed form` formulas that the \
