@@ -60,6 +60,9 @@ pub enum Fault {
     /// Ranks did not do what they must.
     #[error("{0}")]
     Mpi(String),
+    /// The suite of other programs' problems cannot be read, or came out as nothing explains.
+    #[error("{0}")]
+    Suite(String),
     /// Scenes came out wrong.
     #[error("{count} of {of} scenes came out wrong")]
     Scenes {

@@ -6,6 +6,7 @@
 //! | `python` | the Python package: wheel, types, tests; see [`python`] |
 //! | `borders` | the border check alone, in a second; see [`borders`] |
 //! | `scenes` | random scenes of contact, judged from their output; see [`scenes`] |
+//! | `suite` | problems that other programs publish, and their page of the book; see [`suite`] |
 //! | `report-test` | reports in headless Chromium; see [`browser`] |
 //! | `book` | the book as HTML, its links checked; see [`book`] |
 //! | `mathematics` | formulas of the book, for mdBook; see [`book::mathematics`] |
@@ -28,10 +29,11 @@ mod fault;
 mod mpi;
 mod python;
 mod scenes;
+mod suite;
 
 use std::{env, process::ExitCode};
 
-const USAGE: &str = "usage: cargo xtask check | python | borders | scenes [OPTIONS] | report-test | book | endurance | mpi [--all] [PARTS] | mutants [OPTIONS] | bench [ARGUMENTS]";
+const USAGE: &str = "usage: cargo xtask check | python | borders | scenes [OPTIONS] | suite [OPTIONS] | report-test | book | endurance | mpi [--all] [PARTS] | mutants [OPTIONS] | bench [ARGUMENTS]";
 
 fn main() -> ExitCode {
     let tasks: Vec<String> = env::args().skip(1).collect();
@@ -40,6 +42,7 @@ fn main() -> ExitCode {
         ["python"] => python::check(),
         ["borders"] => borders::check(),
         ["scenes", ..] => scenes::scenes(&tasks[1..]),
+        ["suite", ..] => suite::suite(&tasks[1..]),
         ["report-test"] => browser::report_test(),
         ["book", ..] => book::book(&tasks[1..]),
         ["mathematics", ..] => book::mathematics::preprocess(&tasks[1..]),

@@ -264,6 +264,7 @@ const LADDER: &[Row] = &[
             "pulldown-cmark",
             "serde_json",
             "thiserror",
+            "toml",
         ],
     },
 ];
