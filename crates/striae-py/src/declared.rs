@@ -90,6 +90,7 @@ pub fn declared_laws() -> Vec<(&'static str, Vec<Law>)> {
         ("by_pressure", listed(BY_PRESSURE)),
         ("by_slip_rate", listed(BY_RATE)),
         ("by_accumulated_slip", listed(BY_SLIP)),
+        ("by_state", listed(BY_STATE)),
         ("decay", listed(&[&DECAY])),
     ]
 }

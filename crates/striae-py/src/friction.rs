@@ -55,6 +55,7 @@ impl Friction {
             "by_pressure" => law.with_pressure(declared::made(BY_PRESSURE, form, form, &values)?),
             "by_slip_rate" => law.with_rate(declared::made(BY_RATE, form, form, &values)?),
             "by_accumulated_slip" => law.with_slip(declared::made(BY_SLIP, form, form, &values)?),
+            "by_state" => law.with_state(declared::made(BY_STATE, form, form, &values)?),
             _ => law.with_rate(declared::made(&[&DECAY], form, form, &values)?),
         }))
     }

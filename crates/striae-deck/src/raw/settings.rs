@@ -79,6 +79,8 @@ words! {
         SlipRate = "slip-rate",
         /// Length of the path slipped since the start.
         AccumulatedSlip = "accumulated-slip",
+        /// State of friction that depends on rate and state.
+        FrictionState = "friction-state",
         /// Friction work per area since the start.
         FrictionWork = "friction-work",
         /// Normal.
