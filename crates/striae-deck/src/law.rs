@@ -7,8 +7,8 @@ use striae_law::{
     Laws,
     declared::{self, Declared, Kind, Parameter, Value, Values},
     friction::{
-        BY_PRESSURE, BY_RATE, BY_SLIP, BY_STATE, DECAY, Friction, PressureDependence, RateDependence,
-        SlipDependence, StateDependence,
+        BY_PRESSURE, BY_RATE, BY_SLIP, BY_STATE, DECAY, Friction, PressureDependence,
+        RateDependence, SlipDependence, StateDependence,
     },
 };
 

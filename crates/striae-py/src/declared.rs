@@ -4,7 +4,7 @@
 use pyo3::prelude::*;
 use striae::law::{
     declared::{Absent, Declared, Form, Kind, Parameter, Value, Values, named},
-    friction::{BY_PRESSURE, BY_RATE, BY_SLIP, DECAY, LAWS},
+    friction::{BY_PRESSURE, BY_RATE, BY_SLIP, BY_STATE, DECAY, LAWS},
 };
 
 use crate::fault::refused;

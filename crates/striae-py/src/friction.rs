@@ -4,7 +4,9 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 use striae::law::{
     declared::Kind,
-    friction::{self, BY_PRESSURE, BY_RATE, BY_SLIP, DECAY, FrictionError, LAWS, RequiredTextures},
+    friction::{
+        self, BY_PRESSURE, BY_RATE, BY_SLIP, BY_STATE, DECAY, FrictionError, LAWS, RequiredTextures,
+    },
 };
 
 use crate::{
@@ -66,7 +68,7 @@ impl Friction {
         Some((stated.law, declared::given(&stated.values)))
     }
 
-    /// The radius `varpi` of the slip surface at pressures, slip rates and accumulated slips, all
+    /// The radius `varpi` of the slip surface, in steady slip, at pressures, slip rates and accumulated slips, all
     /// of one length.
     fn bound<'py>(
         &self,
