@@ -59,7 +59,7 @@ fn slider(law: RateAndState, drags: &[Drag]) -> Model {
     block.sections = vec![BodySection {
         set: "plate".to_owned(),
         elements: vec![ElementId(0)],
-        material: rubber(2e5, 0.0),
+        material: rubber(2e3, 0.0),
         formulation: Formulation::Standard,
         density: 0.0,
     }];
@@ -87,7 +87,6 @@ fn slider(law: RateAndState, drags: &[Drag]) -> Model {
         });
     }
     model.steps = steps;
-    model.solver.tolerance = 1e-12;
     model
 }
 
@@ -176,7 +175,8 @@ fn steps_of_the_rate_lead_to_steady_friction() {
     for evolution in [Evolution::Ageing, Evolution::Slip] {
         let law = law(evolution, 5.0);
         let rates = [RATE, 10.0 * RATE, 0.1 * RATE];
-        let drags = rates.map(|rate| Drag(rate, 25.0 * law.slip_distance / rate, 50));
+        // The spring is stretched by 24 slip distances first.
+        let drags = rates.map(|rate| Drag(rate, 50.0 * law.slip_distance / rate, 50));
         let run = Run::completed(slider(law, &drags));
         assert!((pressure(&run) / PRESSURE - 1.0).abs() < 1e-3);
         let found = coefficients(&run);
@@ -247,10 +247,11 @@ fn friction_heals_with_the_logarithm_of_the_time_at_rest() {
 /// this time.
 fn growth(over_critical: f64, part: f64) -> f64 {
     let law = law(Evolution::Ageing, over_critical);
-    let (rate, count) = (1.002 * RATE, 60);
+    let (rate, count) = (1.002 * RATE, (6.0 / part).round() as usize);
     let [slow, fast] = [RATE, rate].map(|rate| law.slip_distance / rate);
     let drags = [
-        Drag(RATE, 30.0 * slow, 60),
+        // Long increments damp what loading leaves.
+        Drag(RATE, 300.0 * slow, 60),
         Drag(rate, part * fast * count as f64, count),
     ];
     let run = Run::completed(slider(law, &drags));
@@ -275,7 +276,7 @@ fn growth(over_critical: f64, part: f64) -> f64 {
 fn steady_slip_is_stable_above_the_critical_stiffness() {
     let stiffnesses = [0.9, 1.1];
     let [slow, fast] = stiffnesses.map(|over_critical| {
-        let [coarse, fine] = [0.1, 0.05].map(|part| growth(over_critical, part));
+        let [coarse, fine] = [0.05, 0.025].map(|part| growth(over_critical, part));
         // Increments damp by their size.
         let exact = 2.0 * fine - coarse;
         let [a, b] = EFFECTS;
@@ -344,18 +345,19 @@ fn reference_period(law: RateAndState, pressure: f64, mass: f64, drag: f64, time
 fn stick_and_slip_has_the_period_of_the_slider_with_its_mass() {
     let law = law(Evolution::Ageing, 0.6);
     let (mass, drag, time, count) = (0.1, 2.0 * RATE, 40.0, 8000);
-    let mut model = slider(law, &[Drag(drag, time, count)]);
+    let rest = Drag(RATE, 300.0 * law.slip_distance / RATE, 60);
+    let mut model = slider(law, &[rest, Drag(drag, time, count)]);
     // The layer moves linearly from the plate to its upper side.
     let density = mass / (THICKNESS[0] + THICKNESS[1] / 3.0);
     model.bodies[0].density = density;
     model.bodies[0].sections[0].density = density;
-    model.steps[1].procedure = Procedure::Dynamic {
+    model.steps[2].procedure = Procedure::Dynamic {
         spectral_radius: 1.0,
     };
     let run = Run::of(model);
     assert_eq!(run.ending, striae_solve::outcome::Ending::Completed);
-    let stretches: Vec<f64> = coefficients(&run);
-    let times = maxima(&stretches, time / count as f64);
+    let stretches = &coefficients(&run)[60..];
+    let times = maxima(stretches, time / count as f64);
     let last = times.len() - 1;
     assert!(last >= 3, "{times:?}");
     let period = times[last] - times[last - 1];
