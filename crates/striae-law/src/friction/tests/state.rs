@@ -117,11 +117,11 @@ fn friction_after_a_step_of_the_rate_decays_over_the_slip_distance() {
     for evolution in BOTH {
         let law = law(evolution);
         let steady = law.steady(MU, after);
-        for share in [0.0, 0.1, 1.0, 3.0, 10.0] {
+        for share in [0.0_f64, 0.1, 1.0, 3.0, 10.0] {
             let elapsed = share * 1e-5 / after;
             let state = law.state_after(1e-5 / before, after, elapsed);
             let excess = law.coefficient(MU, after, state) - steady;
-            let left = (-share as f64).exp();
+            let left = (-share).exp();
             let expected = match evolution {
                 Evolution::Ageing => 0.015 * (1.0 + (jump - 1.0) * left).ln(),
                 Evolution::Slip => 0.015 * left * jump.ln(),
