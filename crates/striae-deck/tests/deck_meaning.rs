@@ -115,7 +115,7 @@ fn constants() {
         (
             "friction by state without a direct effect",
             r#"by_state = { form = "slip-law", direct_effect = 0, evolution_effect = 0.015, slip_rate = 1, slip_distance = 1 }"#,
-            "22:91: `direct_effect` in [[pair]] friction by_state must be a number above 0, but is 0",
+            "22:89: `direct_effect` in [[pair]] friction by_state must be a number greater than 0, but is 0",
         ),
     ];
     for (what, keys, expected) in dependences {
