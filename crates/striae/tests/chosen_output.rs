@@ -278,8 +278,7 @@ fn states_of_friction_are_those_of_the_time_and_the_slip() {
     let text = DECK.replace("mu = 0.5", state);
     let text = text.replace(r#""gap", "slip-rate""#, r#""friction-state", "slip-rate""#);
     let folder = tempfile::tempdir().unwrap();
-    let folder = folder.path();
-    let text = text.replace("CELLS", "hexahedra");
+    let (folder, text) = (folder.path(), text.replace("CELLS", "hexahedra"));
     let deck = deck::parse(&text, "deck.toml", Path::new("")).unwrap();
     let simulation = Simulation::of(deck).unwrap();
     simulation.recorded(folder, "bar").run().unwrap();

@@ -8,9 +8,9 @@
 //! rho varpi(v) + k v = |y| ,   varpi(v) = mu(v, theta(v)) W(s) P(p) .
 //! ```
 //!
-//! This is the resolvent of the curve: `rho varpi` as a function of `|y|` has slopes below 1, is
-//! nearly `|y|` where the surface hardly creeps, and nearly constant where it slips. With
-//! `k > rho d varpi/dv` where friction falls there is one solution. It is found in `x = ln v` by
+//! The resolvent of the curve, `rho varpi` as a function of `|y|`, has slopes below 1, is nearly
+//! `|y|` where the surface hardly creeps, and nearly constant where it slips. With
+//! `k > -rho d varpi/dv` where friction falls there is one solution. It is found in `x = ln v` by
 //! Newton's method between bounds; its derivatives follow from the equation,
 //!
 //! ```text
