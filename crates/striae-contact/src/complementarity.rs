@@ -26,7 +26,10 @@
 //! ```
 //!
 //! which is the exact one where the row is satisfied.
+//!
+//! Friction that depends on rate and state has no stick; see [`creep`].
 
+mod creep;
 mod friction;
 mod mobility;
 mod node;
@@ -42,6 +45,7 @@ use crate::{
     term::{Field, LocalTerm},
     unknowns::NodeResult,
 };
+use creep::creeping;
 use friction::tangential;
 use state::{N, NodeState, TRACTION};
 
@@ -93,7 +97,12 @@ pub fn rows(
         false => held(0, p),
     };
     let rows = if closed {
-        let (status, [first, second]) = tangential(&state, configuration, [z1, z2], r_t, iteration);
+        let (status, [first, second]) = match friction.rate_and_state() {
+            Some(law) if configuration.elapsed.is_finite() => {
+                creeping(&state, law, configuration, r_t)
+            }
+            _ => tangential(&state, configuration, [z1, z2], r_t, iteration),
+        };
         result.status = status;
         [normal, first, second]
     } else {

@@ -260,6 +260,7 @@ impl Evaluation {
                     rate: &stage.rates[side][node],
                     slipped: stage.tractions.slipped[side][node],
                     accumulated: stage.tractions.accumulated[side][node],
+                    friction_state: stage.tractions.states[side][node],
                     freedom: stage.selection.slip_freedom(k),
                     before: stage.tractions.labels[side][node],
                     unknowns: stage.tractions.nodes[side][node],
@@ -277,8 +278,10 @@ impl Evaluation {
                 continue;
             };
             let (side, node) = kept[k].place();
-            // What a sticking node is away from where it sticks is residual, not slip.
-            if result.status == Status::Slip {
+            // What a sticking node is away from where it sticks is residual, not slip; a creeping
+            // one slips at any rate.
+            let creeps = conditions.friction.rate_and_state().is_some();
+            if result.status == Status::Slip || creeps && result.status == Status::Stick {
                 let slip = &stage.kinematics[k].slip.value;
                 self.dissipated -= stage.selection.weight(k) * result.tau.dot(slip);
             }

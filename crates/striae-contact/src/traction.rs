@@ -1,7 +1,8 @@
 //! Nodal friction tractions `tau` from the unknowns, with their derivatives.
 //!
 //! At kept nodes `tau = -(L z + varpi eta)`, or what else the law makes of `z`, with `varpi`
-//! at the present slip rate.
+//! at the present slip rate. Friction that depends on rate and state is always on the slip
+//! surface: there `varpi = |z|`, which needs no rate, of which next to rest round-off is left.
 
 use nalgebra::{Matrix3, Vector3};
 use num_dual::DualSVec64;
@@ -90,13 +91,20 @@ fn nodal_traction(
     let [p, z1, z2] = unknowns;
     let vector = in_frame(frame, [z1, z2]);
     let pressure = kinematics.bounding_pressure(p);
-    let cap = Cap::new(friction, accumulated, pressure, rate.value);
+    let creeps = friction.rate_and_state().is_some();
+    let cap = match creeps {
+        true => Cap::on_surface(&vector),
+        false => Cap::new(friction, accumulated, pressure, rate.value),
+    };
     let response = if *textures == NodeTextures::default() {
         Response::new::<4>(friction, frame, textures, cap, &vector)
     } else {
         Response::new::<13>(friction, frame, textures, cap, &vector)
     };
-    let by_vector = response.by_vector;
+    let by_vector = match vector.try_normalize(0.0) {
+        Some(direction) if creeps => response.by_vector + response.by_cap * direction.transpose(),
+        _ => response.by_vector,
+    };
     let mut gradient = [[0.0; 3]; 20];
     let (by_own, by_mean) = match kinematics.pressure {
         Pressure::AtNode => (response.by_pressure, Vec3::zeros()),
@@ -141,6 +149,15 @@ pub struct Cap {
 }
 
 impl Cap {
+    /// Of a vector `z` on the slip surface; depends on nothing else.
+    fn on_surface(z: &Vec3) -> Self {
+        Self {
+            value: z.norm(),
+            by_pressure: 0.0,
+            by_rate: 0.0,
+        }
+    }
+
     /// After an accumulated slip, at a pressure and a slip rate.
     pub fn new(friction: &Friction, accumulated: f64, pressure: f64, rate: f64) -> Self {
         let (pressure, rate) = (variable(pressure, 0), variable(rate, 1));
@@ -158,6 +175,7 @@ impl Cap {
 struct Response {
     tau: Vec3,
     by_vector: Matrix3<f64>,
+    by_cap: Vec3,
     by_pressure: Vec3,
     by_rate: Vec3,
     /// Lane by lane, by normal and textures.
@@ -188,6 +206,7 @@ impl Response {
         Self {
             tau,
             by_vector: Matrix3::from_fn(|row, column| gradient[column][row]),
+            by_cap,
             by_pressure: by_cap * cap.by_pressure,
             by_rate: by_cap * cap.by_rate,
             by_surroundings,

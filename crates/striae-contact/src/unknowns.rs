@@ -1,6 +1,7 @@
 //! Values of the traction unknowns of a pair.
 
 use serde::{Deserialize, Serialize};
+use striae_law::friction::{Friction, RateAndState};
 use striae_mesh::Vec3;
 
 /// Traction unknowns of a pair; the same shape whatever the roles.
@@ -20,6 +21,9 @@ pub struct Tractions {
     pub bedded: [Vec<f64>; 2],
     /// Slip `sum |du|` of each node up to the last converged state, by side.
     pub accumulated: [Vec<f64>; 2],
+    /// State `theta` of friction of each node at the last converged state, by side; zero before
+    /// there is friction that depends on one.
+    pub states: [Vec<f64>; 2],
     /// Labels of the nodes after the iterations so far, by side; before the first iteration, slip
     /// for nodes that slipped in the last increment and open for all others. They matter with a
     /// corrector, and where friction falls with the slip rate.
@@ -35,6 +39,7 @@ impl Tractions {
             stuck: nodes.map(|count| vec![false; count]),
             bedded: nodes.map(|count| vec![0.0; count]),
             accumulated: nodes.map(|count| vec![0.0; count]),
+            states: nodes.map(|count| vec![0.0; count]),
             tau_n: nodes.map(|count| vec![[0.0; 2]; count]),
             labels: nodes.map(|count| vec![Label::default(); count]),
         }
@@ -48,6 +53,24 @@ impl Tractions {
             if node.status != Status::Open {
                 *sum += node.slip.norm();
             }
+        }
+    }
+
+    /// Lets the states of friction evolve over an increment that has converged and took the time
+    /// `elapsed`; those of open nodes rest.
+    pub fn evolve(&mut self, nodes: &[Vec<NodeResult>; 2], friction: &Friction, elapsed: f64) {
+        let Some(law) = friction.rate_and_state() else {
+            return;
+        };
+        let states = self.states.iter_mut().flatten();
+        for (state, node) in states.zip(nodes.iter().flatten()) {
+            let before = begun(law, *state);
+            *state = match node.status {
+                Status::Open => before,
+                Status::Stick | Status::Slip => {
+                    law.state_after(before, node.slip.norm() / elapsed, elapsed)
+                }
+            };
         }
     }
 
@@ -66,6 +89,14 @@ impl Tractions {
         for (label, node) in sides.flat_map(|(labels, nodes)| labels.iter_mut().zip(nodes)) {
             *label = after(*label, node);
         }
+    }
+}
+
+/// The state at a node, that of the law at the start where there is none yet.
+pub(crate) fn begun(law: &RateAndState, state: f64) -> f64 {
+    match state > 0.0 {
+        true => state,
+        false => law.state,
     }
 }
 

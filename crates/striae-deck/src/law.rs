@@ -7,8 +7,8 @@ use striae_law::{
     Laws,
     declared::{self, Declared, Kind, Parameter, Value, Values},
     friction::{
-        BY_PRESSURE, BY_RATE, BY_SLIP, DECAY, Friction, PressureDependence, RateDependence,
-        SlipDependence,
+        BY_PRESSURE, BY_RATE, BY_SLIP, BY_STATE, DECAY, Friction, PressureDependence,
+        RateDependence, SlipDependence, StateDependence,
     },
 };
 
@@ -70,6 +70,16 @@ impl Named for SlipDependence {
 
     fn declared(_: &Laws) -> &[&'static Declared<Self>] {
         BY_SLIP
+    }
+}
+
+impl Named for StateDependence {
+    const TAG: &'static str = "form";
+    const DOC: &'static str = "How the state of the surface evolves.";
+    const OPEN: Option<Open> = None;
+
+    fn declared(_: &Laws) -> &[&'static Declared<Self>] {
+        BY_STATE
     }
 }
 
@@ -150,11 +160,13 @@ impl Part for Decay {
 pub(crate) type ByPressure = Stated<PressureDependence>;
 pub(crate) type BySlipRate = Stated<RateDependence>;
 pub(crate) type ByAccumulatedSlip = Stated<SlipDependence>;
+pub(crate) type ByState = Stated<StateDependence>;
 
 read_as_table!(Decay);
 read_as_table!(ByPressure);
 read_as_table!(BySlipRate);
 read_as_table!(ByAccumulatedSlip);
+read_as_table!(ByState);
 
 impl Open {
     /// Returns the compositions of a table with any of the laws.

@@ -107,6 +107,16 @@ fn constants() {
             r#"decay = { kinetic_over_static = 0.5, slip_rate = 1 }, by_slip_rate = { form = "stribeck", kinetic_over_static = 0.5, slip_rate = 1 }"#,
             "22:110: this friction is not admissible: it has both `decay` and `by_slip_rate`; give one of them; a decay with more constants is `by_slip_rate = { form = \"stribeck\", .. }`",
         ),
+        (
+            "a decay and a state",
+            r#"decay = { kinetic_over_static = 0.5, slip_rate = 1 }, by_state = { form = "ageing-law", direct_effect = 0.01, evolution_effect = 0.015, slip_rate = 1, slip_distance = 1 }"#,
+            "22:106: this friction is not admissible: it has both `decay` and `by_state`, which both say how friction goes with the slip rate; give one of them",
+        ),
+        (
+            "friction by state without a direct effect",
+            r#"by_state = { form = "slip-law", direct_effect = 0, evolution_effect = 0.015, slip_rate = 1, slip_distance = 1 }"#,
+            "22:89: `direct_effect` in [[pair]] friction by_state must be a number greater than 0, but is 0",
+        ),
     ];
     for (what, keys, expected) in dependences {
         let friction = format!(r#"law = "coulomb", mu = 0.3, {keys}"#);

@@ -648,6 +648,10 @@ fn friction_that_depends_on_pressure_and_slip_rate() {
     let after = read(run_in).cap_after(0.1, 2.0, 0.0);
     let expected = 0.6 * (1.5 - 0.5 * (-0.5_f64).exp());
     assert!((after - expected).abs() < 1e-14, "{after} {expected}");
+    let state = r#"by_state = { form = "ageing-law", direct_effect = 0.01, evolution_effect = 0.02, slip_rate = 0.1, slip_distance = 0.5 }"#;
+    let read_state = read(state);
+    assert_eq!(read_state.rate_and_state().unwrap().state, 5.0);
+    close(&read_state, [2.0, 0.3], 2.0 * (0.3 - 0.01 * 3.0_f64.ln()));
     let both = format!(
         "by_slip_rate = {{ form = \"table\", slip_rates = [0, 3], factors = [1, 2] }}, {table}"
     );

@@ -115,6 +115,8 @@ pub enum ContactField {
     SlipRate,
     /// Length of the way slipped since the start.
     AccumulatedSlip,
+    /// State of friction that depends on rate and state.
+    FrictionState,
     /// Friction work per area since the start.
     FrictionWork,
     /// Normal.
@@ -128,7 +130,7 @@ pub enum ContactField {
 }
 
 impl ContactField {
-    /// Fields written by default: all except the slip rate.
+    /// Fields written by default: all except the slip rate and the state of friction.
     pub const USUAL: [Self; 10] = [
         Self::Gap,
         Self::Traction,

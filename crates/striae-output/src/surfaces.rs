@@ -108,6 +108,10 @@ fn arrays(
             vec![("slip_rate", Values::Vectors(rates))]
         }
         ContactField::AccumulatedSlip => vec![("accumulated_slip", sums(wanted, 0, 1.0))],
+        ContactField::FrictionState => {
+            let states = &state.pairs[pair].tractions.states[side];
+            vec![("friction_state", Values::Scalars(states.clone()))]
+        }
         ContactField::FrictionWork => vec![("friction_work", sums(wanted, 1, 1.0))],
         ContactField::Normal => vec![("normal", vectors(|node| node.normal))],
         ContactField::Texture => vec![

@@ -4,7 +4,7 @@
 use pyo3::prelude::*;
 use striae::law::{
     declared::{Absent, Declared, Form, Kind, Parameter, Value, Values, named},
-    friction::{BY_PRESSURE, BY_RATE, BY_SLIP, DECAY, LAWS},
+    friction::{BY_PRESSURE, BY_RATE, BY_SLIP, BY_STATE, DECAY, LAWS},
 };
 
 use crate::fault::refused;
@@ -90,6 +90,7 @@ pub fn declared_laws() -> Vec<(&'static str, Vec<Law>)> {
         ("by_pressure", listed(BY_PRESSURE)),
         ("by_slip_rate", listed(BY_RATE)),
         ("by_accumulated_slip", listed(BY_SLIP)),
+        ("by_state", listed(BY_STATE)),
         ("decay", listed(&[&DECAY])),
     ]
 }

@@ -4,7 +4,9 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 use striae::law::{
     declared::Kind,
-    friction::{self, BY_PRESSURE, BY_RATE, BY_SLIP, DECAY, FrictionError, LAWS, RequiredTextures},
+    friction::{
+        self, BY_PRESSURE, BY_RATE, BY_SLIP, BY_STATE, DECAY, FrictionError, LAWS, RequiredTextures,
+    },
 };
 
 use crate::{
@@ -55,6 +57,7 @@ impl Friction {
             "by_pressure" => law.with_pressure(declared::made(BY_PRESSURE, form, form, &values)?),
             "by_slip_rate" => law.with_rate(declared::made(BY_RATE, form, form, &values)?),
             "by_accumulated_slip" => law.with_slip(declared::made(BY_SLIP, form, form, &values)?),
+            "by_state" => law.with_state(declared::made(BY_STATE, form, form, &values)?),
             _ => law.with_rate(declared::made(&[&DECAY], form, form, &values)?),
         }))
     }
@@ -65,7 +68,7 @@ impl Friction {
         Some((stated.law, declared::given(&stated.values)))
     }
 
-    /// The radius `varpi` of the slip surface at pressures, slip rates and accumulated slips, all
+    /// The radius `varpi` of the slip surface, in steady slip, at pressures, slip rates and accumulated slips, all
     /// of one length.
     fn bound<'py>(
         &self,

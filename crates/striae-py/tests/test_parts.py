@@ -341,6 +341,9 @@ def test_friction_depends_on_pressure_and_slip_rate() -> None:
     run_in = law.with_exponential(1.5, 0.2)
     after = 0.6 * (1.5 - 0.5 * np.exp(-0.5))
     assert np.allclose(run_in.bound(2.0, 0.0, 0.1), after, rtol=1e-14)
+    aged = law.with_ageing_law(0.01, 0.015, slip_rate=1e-6, slip_distance=1e-5)
+    steady = 2 * (0.3 - 0.005 * np.log([1.0, 10.0]))
+    assert np.allclose(aged.bound([2.0, 2.0], [1e-6, 1e-5]), steady, rtol=1e-12)
     both = law.with_table_by_slip_rate([0, 1], [1, 0.5]).with_power_law(0.5, 4.0)
     assert np.allclose(both.bound([9.0, 9.0], [0.0, 2.0]), [1.8, 0.9], rtol=1e-14)
 
@@ -351,6 +354,7 @@ def test_friction_depends_on_pressure_and_slip_rate() -> None:
         (lambda law: law.with_power_law(0.0, 1.0), "exponent = 0 is refused"),
         (lambda law: law.with_power_law(0.5, "high"), "pressure: a number is needed"),
         (lambda law: law.with_stribeck(0.5, 1.0, exponent=0.5), "at least 1"),
+        (lambda law: law.with_slip_law(0.0, 0.1, 1.0, 1.0), "direct_effect = 0 is refused"),
         (lambda law: law.with_logarithm(-0.5, 1.0), "vanish at the slip rate 6.389056"),
         (lambda law: law.with_table_by_pressure([1, 1], [1, 1]), "must ascend"),
         (lambda law: law.with_table_by_slip_rate([[1]], [1]), "one dimension"),
@@ -373,6 +377,7 @@ def test_parts_are_copied_and_pickled(model: st.Model, pad: st.Body, floor: st.P
         st.Coulomb(0.3).with_adhesion(1e4).with_logarithm(-0.1, 0.1, limit=1.0),
         st.Coulomb(0.3).with_saturation(1e4).with_table_by_slip_rate([0, 1], [1, 0.8]),
         st.Coulomb(0.3).with_table_by_pressure([0, 1e5], [1, 0.8]).with_exponential(1.5, 0.1),
+        st.Coulomb(0.3).with_slip_law(0.01, 0.02, 1e-6, 1e-5, state=3.0),
         st.Circumferential((0, 0, 1), turn=3),
         pad["zmin"].textured((1, 0, 0)),
         floor,

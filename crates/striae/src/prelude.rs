@@ -7,7 +7,8 @@ pub use striae_contact::unknowns::{NodeResult, Status};
 pub use striae_law::{
     bulk::{Hyperelastic, Isochoric, LameConstants, Material, OgdenTerm, Volumetric},
     friction::{
-        Decay, Friction, Logarithm, PressureDependence, RateDependence, SlipDependence, SlipRule,
+        Decay, Evolution, Friction, Logarithm, PressureDependence, RateAndState, RateDependence,
+        SlipDependence, SlipRule, StateDependence,
     },
 };
 pub use striae_mesh::{Mesh, NodeId, Region, Vec3, generate::Block};

@@ -273,6 +273,24 @@ fn cuts_transmit_what_acts_beyond_them() {
 }
 
 #[test]
+fn states_of_friction_are_those_of_the_time_and_the_slip() {
+    let state = r#"mu = 0.5, by_state = { form = "ageing-law", direct_effect = 0.01, evolution_effect = 0.015, slip_rate = 0.1, slip_distance = 0.2, state = 3 }"#;
+    let text = DECK.replace("mu = 0.5", state);
+    let text = text.replace(r#""gap", "slip-rate""#, r#""friction-state", "slip-rate""#);
+    let folder = tempfile::tempdir().unwrap();
+    let (folder, text) = (folder.path(), text.replace("CELLS", "hexahedra"));
+    let deck = deck::parse(&text, "deck.toml", Path::new("")).unwrap();
+    let simulation = Simulation::of(deck).unwrap();
+    simulation.recorded(folder, "bar").run().unwrap();
+    let contact = snapshots(folder, "contact.pvd");
+    // In the step of a time of 1 in which the bar is pressed it ages, then it slips at 0.1.
+    let left = (-0.1_f64 / 0.2).exp();
+    let slid = 4.0 * left + 2.0 * (1.0 - left);
+    assert_all(folder, &contact[2], "friction_state", &[4.0]);
+    assert_all(folder, contact.last().unwrap(), "friction_state", &[slid]);
+}
+
+#[test]
 fn contact_is_written_as_it_is_found() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();

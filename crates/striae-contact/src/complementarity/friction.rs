@@ -248,18 +248,18 @@ impl Friction<'_> {
     }
 }
 
-fn traction(value: Q) -> TangentialRow {
+pub(super) fn traction(value: Q) -> TangentialRow {
     (Field::Traction, value.re, value.slope)
 }
 
 /// `q . v`.
-fn part(q: &[Q; 2], v: &[Q; 2]) -> Q {
+pub(super) fn part(q: &[Q; 2], v: &[Q; 2]) -> Q {
     let [first, second] = [0, 1].map(|at| Q::product(&q[at], &v[at]));
     Q::combination([(1.0, &first), (1.0, &second)])
 }
 
 /// No `z` across the unit vector `w`.
-fn across(w: &[Q; 2], z: &[Q; 2]) -> TangentialRow {
+pub(super) fn across(w: &[Q; 2], z: &[Q; 2]) -> TangentialRow {
     let [first, second] = w;
     let across = [Q::combination([(-1.0, second)]), *first];
     traction(part(&across, z))

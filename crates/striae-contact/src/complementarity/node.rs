@@ -62,6 +62,8 @@ pub struct ContactNode<'a> {
     pub slipped: bool,
     /// Its slip up to the last converged state.
     pub accumulated: f64,
+    /// State of its friction at the last converged state, zero before there is one.
+    pub friction_state: f64,
     /// In which directions its friction is determined.
     pub freedom: SlipFreedom,
     /// Label from the previous iterations.

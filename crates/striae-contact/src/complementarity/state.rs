@@ -230,15 +230,19 @@ impl<'a> NodeState<'a> {
             rate,
         );
         let mut varpi = Q::constant(cap.value);
-        let lane = match self.node.kinematics.pressure {
-            Pressure::AtNode => TRACTION,
-            Pressure::AtPoints(_) => PRESSURE,
-        };
-        varpi.slope[lane] = cap.by_pressure;
+        varpi.slope[self.pressure_lane()] = cap.by_pressure;
         if rate == present {
             varpi.slope[RATE] = cap.by_rate;
         }
         varpi
+    }
+
+    /// The lane of the pressure that bounds friction.
+    pub(super) fn pressure_lane(&self) -> usize {
+        match self.node.kinematics.pressure {
+            Pressure::AtNode => TRACTION,
+            Pressure::AtPoints(_) => PRESSURE,
+        }
     }
 
     /// `rho`, how far `z` reaches over `varpi` in a direction with components along the

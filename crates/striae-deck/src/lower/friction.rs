@@ -30,11 +30,24 @@ pub(crate) fn friction(
     let by_pressure = dependence(&raw.by_pressure, faults);
     let by_rate = dependence(&raw.by_slip_rate, faults);
     let by_slip = dependence(&raw.by_accumulated_slip, faults);
+    let by_state = dependence(&raw.by_state, faults);
     if let (Some(_), Some(by_rate)) = (&raw.decay, &raw.by_slip_rate) {
         let cause = "it has both `decay` and `by_slip_rate`; give one of them; a decay with more \
                      constants is `by_slip_rate = { form = \"stribeck\", .. }`";
         let cause = cause.to_owned();
         faults.push(&by_rate.span, FaultKind::Friction { cause });
+        return None;
+    }
+    let of_rate = [
+        raw.decay.as_ref().map(|_| "decay"),
+        raw.by_slip_rate.as_ref().map(|_| "by_slip_rate"),
+    ];
+    if let (Some(key), Some(at)) = (of_rate.into_iter().flatten().next(), &raw.by_state) {
+        let cause = format!(
+            "it has both `{key}` and `by_state`, which both say how friction goes with the slip \
+             rate; give one of them"
+        );
+        faults.push(&at.span, FaultKind::Friction { cause });
         return None;
     }
     let mut law = law?;
@@ -46,6 +59,9 @@ pub(crate) fn friction(
     }
     if let Some(by_slip) = by_slip? {
         law = law.with_slip(by_slip);
+    }
+    if let Some(by_state) = by_state? {
+        law = law.with_state(by_state);
     }
     Some(law)
 }

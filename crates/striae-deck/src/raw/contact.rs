@@ -5,7 +5,7 @@ use crate::{
     declare::{either, table, words},
     faults::FaultList,
     form::Form,
-    law::{ByAccumulatedSlip, ByPressure, BySlipRate, Decay, Stated},
+    law::{ByAccumulatedSlip, ByPressure, BySlipRate, ByState, Decay, Stated},
     read::{Place, Read, Value, read_table, unexpected},
     value::{Angle, NonNegative, Number, Positive, Text, Truth},
 };
@@ -245,5 +245,8 @@ table! {
         /// Dependence of all coefficients on the slip that a point of a surface has accumulated
         /// since the start of the run. Default: none.
         optional by_accumulated_slip: ByAccumulatedSlip,
+        /// Dependence of all coefficients on the slip rate and on a state of the surface, which
+        /// evolves with time and slip; replaces `decay` and `by_slip_rate`. Default: none.
+        optional by_state: ByState,
     }
 }

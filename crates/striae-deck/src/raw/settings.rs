@@ -18,7 +18,7 @@ table! {
         optional bodies: Vec<At<Text>>,
         /// Fields of bodies. Default: `displacement`, `velocity`, `cauchy-stress`, `von-mises` and `history-variables`.
         optional body_fields: Vec<At<BodyField>>,
-        /// Fields of contact surfaces. Default: all except `slip-rate`.
+        /// Fields of contact surfaces. Default: all except `slip-rate` and `friction-state`.
         optional contact_fields: Vec<At<ContactField>>,
         /// Archard's coefficient `k`, wear depth over pressure and slip: writes the field `wear_depth` of contact surfaces. Default: none.
         optional wear_coefficient: Positive,
@@ -79,6 +79,8 @@ words! {
         SlipRate = "slip-rate",
         /// Length of the path slipped since the start.
         AccumulatedSlip = "accumulated-slip",
+        /// State of friction that depends on rate and state.
+        FrictionState = "friction-state",
         /// Friction work per area since the start.
         FrictionWork = "friction-work",
         /// Normal.

@@ -39,6 +39,7 @@ pub(super) fn friction_keys(friction: &Friction) -> Option<String> {
         statement => dependence("by_slip_rate", statement),
     };
     text += &dependence("by_accumulated_slip", coefficient.by_slip().statement());
+    text += &dependence("by_state", coefficient.by_state().statement());
     Some(text)
 }
 

@@ -1,12 +1,14 @@
-//! Coefficient of friction, constant or dependent on pressure, slip rate and accumulated slip.
+//! Coefficient of friction, constant or dependent on pressure, slip rate, accumulated slip and
+//! state.
 //!
 //! ```text
-//! varpi = mu R(v) W(s) P(p)
+//! varpi = mu R(v) W(s) P(p) ,   or   mu(v, theta) W(s) P(p)
 //! ```
 //!
 //! with the stated coefficient `mu`, a function `R` of the slip rate, see
 //! [`RateDependence`], a function `W` of the accumulated slip, see [`SlipDependence`], and a
-//! function `P` of the pressure, see [`PressureDependence`].
+//! function `P` of the pressure, see [`PressureDependence`]. A coefficient that depends on slip
+//! rate and state, see [`StateDependence`], takes the place of `mu R(v)`.
 
 use num_dual::DualNum;
 use serde::Serialize;
@@ -14,6 +16,7 @@ use serde::Serialize;
 use super::by_pressure::PressureDependence;
 use super::by_rate::RateDependence;
 use super::by_slip::SlipDependence;
+use super::by_state::StateDependence;
 use super::error::{FrictionError, not_negative};
 
 /// Coefficient of friction `mu R(v) W(s) P(p)/p`.
@@ -23,6 +26,7 @@ pub struct Coefficient {
     by_pressure: PressureDependence,
     by_rate: RateDependence,
     by_slip: SlipDependence,
+    by_state: StateDependence,
 }
 
 impl Coefficient {
@@ -36,6 +40,7 @@ impl Coefficient {
             by_pressure: PressureDependence::default(),
             by_rate: RateDependence::default(),
             by_slip: SlipDependence::default(),
+            by_state: StateDependence::default(),
         })
     }
 
@@ -47,14 +52,29 @@ impl Coefficient {
         }
     }
 
-    /// The coefficient with a dependence on the slip rate, in place of one it had.
+    /// The coefficient with a dependence on the slip rate, in place of one it had and of one on
+    /// slip rate and state.
     pub fn with_rate(self, by_rate: RateDependence) -> Self {
-        Self { by_rate, ..self }
+        Self {
+            by_rate,
+            by_state: StateDependence::default(),
+            ..self
+        }
     }
 
     /// The coefficient with a dependence on the accumulated slip, in place of one it had.
     pub fn with_slip(self, by_slip: SlipDependence) -> Self {
         Self { by_slip, ..self }
+    }
+
+    /// The coefficient with a dependence on slip rate and state, in place of one it had and of one
+    /// on the slip rate alone.
+    pub fn with_state(self, by_state: StateDependence) -> Self {
+        Self {
+            by_state,
+            by_rate: RateDependence::default(),
+            ..self
+        }
     }
 
     /// The stated value `mu`: at rest, without accumulated slip, and where
@@ -78,9 +98,23 @@ impl Coefficient {
         &self.by_slip
     }
 
-    /// `mu R(v)` at the slip rate `v >= 0`.
+    /// Dependence on slip rate and state.
+    pub fn by_state(&self) -> &StateDependence {
+        &self.by_state
+    }
+
+    /// `mu R(v)` at the slip rate `v >= 0`; of a coefficient that depends on the state, the one of
+    /// steady slip.
     pub fn at_slip_rate<D: DualNum<Primitive = f64> + Copy>(&self, slip_rate: D) -> D {
-        self.by_rate.of(self.at_rest, slip_rate)
+        match self.by_state.constants() {
+            Some(law) => law.steady(self.at_rest, slip_rate),
+            None => self.by_rate.of(self.at_rest, slip_rate),
+        }
+    }
+
+    /// `W(s) P(p)` at a pressure `p > 0`.
+    pub(super) fn scaled<D: DualNum<Primitive = f64> + Copy>(&self, pressure: D, slip: f64) -> D {
+        self.by_pressure.at(self.at_rest, pressure) * self.by_slip.at(slip)
     }
 
     /// `mu R(v) W(s) P(p)` at a pressure `p > 0`.

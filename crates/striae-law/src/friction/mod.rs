@@ -5,7 +5,8 @@
 //! rule), a [`Coefficient`] and, if wanted, a cap on the shear stress. It gives
 //! the solver two functions: the radius [`Friction::cap`] of the slip surface of `z`
 //! and the [`Kernel`] that turns `z` into a traction. Both are generic over
-//! dual numbers, so their derivatives are exact.
+//! dual numbers, so their derivatives are exact. Where coefficients depend on rate and state,
+//! [`Friction::creep`] takes the place of the radius.
 //!
 //! Conventions: `p >= 0` is compressive; slip is the motion of the surface that
 //! carries the point relative to the other one; the traction acts on the
@@ -17,8 +18,10 @@ mod battery;
 mod by_pressure;
 mod by_rate;
 mod by_slip;
+mod by_state;
 mod coefficient;
 mod coulomb;
+mod creep;
 mod ellipse;
 mod error;
 mod kernel;
@@ -44,7 +47,9 @@ pub use battery::{Violation, battery};
 pub use by_pressure::{BY_PRESSURE, FLOOR_OF_ADHESION, FLOOR_OF_POWER_LAW, PressureDependence};
 pub use by_rate::{BY_RATE, DECAY, Decay, Logarithm, RateDependence};
 pub use by_slip::{BY_SLIP, SlipDependence};
+pub use by_state::{BY_STATE, Evolution, RateAndState, StateDependence};
 pub use coefficient::Coefficient;
+pub use creep::{Creep, Past};
 pub use ellipse::Ellipse;
 pub use error::FrictionError;
 pub use kernel::{Kernel, Textures};
@@ -164,7 +169,8 @@ impl Friction {
         }
     }
 
-    /// Lets all coefficients depend on the slip rate; see [`RateDependence`].
+    /// Lets all coefficients depend on the slip rate, and not on a state; see
+    /// [`RateDependence`].
     pub fn with_rate(self, by_rate: RateDependence) -> Self {
         let coefficient = self.coefficient.with_rate(by_rate);
         Self {
@@ -176,6 +182,16 @@ impl Friction {
     /// Lets all coefficients depend on the accumulated slip; see [`SlipDependence`].
     pub fn with_slip(self, by_slip: SlipDependence) -> Self {
         let coefficient = self.coefficient.with_slip(by_slip);
+        Self {
+            coefficient,
+            ..self
+        }
+    }
+
+    /// Lets all coefficients depend on slip rate and state, in place of a dependence on the slip
+    /// rate alone; see [`StateDependence`].
+    pub fn with_state(self, by_state: StateDependence) -> Self {
+        let coefficient = self.coefficient.with_state(by_state);
         Self {
             coefficient,
             ..self
@@ -255,7 +271,8 @@ impl Friction {
     }
 
     /// Radius of the slip surface of `z`, over its reach: `varpi = mu R(v) P(p)`, at most
-    /// the shear cap, and zero where the pressure is not compressive. Without accumulated slip.
+    /// the shear cap, and zero where the pressure is not compressive. Without accumulated slip, and
+    /// in steady slip if coefficients depend on a state.
     ///
     /// Kinks, with one-sided derivatives taken on the side the value lies on: at
     /// `p = 0`, where friction meets the cap, and at the ends of tables, floors and limits of
@@ -274,7 +291,11 @@ impl Friction {
         if pressure.re() <= 0.0 {
             return D::zero();
         }
-        let varpi = self.coefficient.bound(pressure, slip_rate, slip);
+        self.capped(self.coefficient.bound(pressure, slip_rate, slip))
+    }
+
+    /// `varpi` up to the shear cap.
+    fn capped<D: DualNum<Primitive = f64> + Copy>(&self, varpi: D) -> D {
         match self.shear_cap {
             Some(tau_max) if varpi.re() > tau_max => D::from(tau_max),
             _ => varpi,

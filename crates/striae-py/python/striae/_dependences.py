@@ -182,6 +182,70 @@ class Dependences(Made):
         }
         return self._with("by_accumulated_slip", "table", "with_table_by_accumulated_slip", values)
 
+    def with_ageing_law(
+        self,
+        direct_effect: float,
+        evolution_effect: float,
+        slip_rate: float,
+        slip_distance: float,
+        state: Optional[float] = None,
+    ) -> Friction:
+        """Returns the law with a dependence ``by_state``, in place of another one. Rate-and-state
+        friction ``mu + a ln(v/v_0) + b ln(v_0 theta/D)`` with the ageing law ``d theta/dt = 1 - v
+        theta/D``: contacts grow stronger at rest.
+
+        direct_effect: ``a``, by which the largest coefficient rises at once as the slip rate rises
+            by a factor of e (no unit).
+        evolution_effect: ``b``, by which it falls again as the state follows; above ``a`` for
+            friction that is less in faster steady slip (no unit).
+        slip_rate: ``v_0``, the rate at which coefficients in steady slip are those that the law
+            states (length per time).
+        slip_distance: ``D``, the slip over which the state follows a change of the slip rate
+            (length).
+        state: ``theta`` at the start; by default that of steady slip at ``slip_rate`` (time);
+            ``slip_distance/slip_rate`` by default.
+        """
+        values: Values = {
+            "direct_effect": check.number(direct_effect, "direct_effect"),
+            "evolution_effect": check.number(evolution_effect, "evolution_effect"),
+            "slip_rate": check.number(slip_rate, "slip_rate"),
+            "slip_distance": check.number(slip_distance, "slip_distance"),
+            "state": check.optional(state, "state"),
+        }
+        return self._with("by_state", "ageing-law", "with_ageing_law", values)
+
+    def with_slip_law(
+        self,
+        direct_effect: float,
+        evolution_effect: float,
+        slip_rate: float,
+        slip_distance: float,
+        state: Optional[float] = None,
+    ) -> Friction:
+        """Returns the law with a dependence ``by_state``, in place of another one. Rate-and-state
+        friction ``mu + a ln(v/v_0) + b ln(v_0 theta/D)`` with the slip law ``d theta/dt = -(v
+        theta/D) ln(v theta/D)``: the state changes with slip only.
+
+        direct_effect: ``a``, by which the largest coefficient rises at once as the slip rate rises
+            by a factor of e (no unit).
+        evolution_effect: ``b``, by which it falls again as the state follows; above ``a`` for
+            friction that is less in faster steady slip (no unit).
+        slip_rate: ``v_0``, the rate at which coefficients in steady slip are those that the law
+            states (length per time).
+        slip_distance: ``D``, the slip over which the state follows a change of the slip rate
+            (length).
+        state: ``theta`` at the start; by default that of steady slip at ``slip_rate`` (time);
+            ``slip_distance/slip_rate`` by default.
+        """
+        values: Values = {
+            "direct_effect": check.number(direct_effect, "direct_effect"),
+            "evolution_effect": check.number(evolution_effect, "evolution_effect"),
+            "slip_rate": check.number(slip_rate, "slip_rate"),
+            "slip_distance": check.number(slip_distance, "slip_distance"),
+            "state": check.optional(state, "state"),
+        }
+        return self._with("by_state", "slip-law", "with_slip_law", values)
+
     def with_decay(self, kinetic_over_static: float, slip_rate: float) -> Friction:
         """Returns the law with a dependence ``decay``, in place of another one. Decay of friction
         from rest to fast slip, ``kinetic + (static - kinetic) exp(-rate/slip_rate)``.

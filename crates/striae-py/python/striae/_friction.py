@@ -68,8 +68,9 @@ class Friction(Dependences):
         accumulated_slip: Union[float, Sequence[float], Floats] = 0.0,
     ) -> Floats:
         """Largest friction at pressures, slip rates and accumulated slips (force per area): the
-        coefficient times the pressure, with all dependences and the shear cap. In laws with a
-        direction it is scaled with their slip surface, see :meth:`slip_surface`.
+        coefficient times the pressure, with all dependences and the shear cap; in steady slip,
+        if it depends on a state, and at rest as stated. In laws with a direction it is scaled
+        with their slip surface, see :meth:`slip_surface`.
 
         pressure: one or many (force per area).
         slip_rate: one, or as many (length per time).

@@ -49,18 +49,21 @@ pub(super) fn accepted(
         .into_iter()
         .zip(selections)
         .zip(assembled.contacts)
-        .zip(&state.pairs)
-        .map(|(((mut tractions, selection), evaluation), before)| {
-            tractions.accumulate(&evaluation.nodes);
-            PairState {
-                dissipated: before.dissipated + evaluation.dissipated,
-                kept: selection.kept_nodes(),
-                tractions,
-                carried: evaluation.carried,
-                nodes: evaluation.nodes,
-                facets: evaluation.facets,
-            }
-        })
+        .zip(state.pairs.iter().zip(&context.plan.frictions))
+        .map(
+            |(((mut tractions, selection), evaluation), (before, friction))| {
+                tractions.accumulate(&evaluation.nodes);
+                tractions.evolve(&evaluation.nodes, friction, imposed.elapsed);
+                PairState {
+                    dissipated: before.dissipated + evaluation.dissipated,
+                    kept: selection.kept_nodes(),
+                    tractions,
+                    carried: evaluation.carried,
+                    nodes: evaluation.nodes,
+                    facets: evaluation.facets,
+                }
+            },
+        )
         .collect();
     State {
         time,

@@ -165,10 +165,11 @@ pub(crate) fn linearise(base: &Base, workspace: &mut Workspace) -> Result<(), Cu
     let of_pairs = state.pairs.iter().zip(&base.before.pairs);
     let tractions = of_pairs.map(|(after, before)| {
         let mut tractions = after.tractions.clone();
-        // The rows of the increment saw the slip up to its start.
+        // The rows of the increment saw slip and state up to its start.
         tractions
             .accumulated
             .clone_from(&before.tractions.accumulated);
+        tractions.states.clone_from(&before.tractions.states);
         tractions
     });
     let trial = Trial {

@@ -6,4 +6,5 @@
 mod scene;
 
 mod blocks;
+mod slider;
 mod sphere;

@@ -16,6 +16,7 @@ mod placed;
 mod whole;
 
 mod contact;
+mod creeping;
 mod guided;
 mod system;
 mod textured;

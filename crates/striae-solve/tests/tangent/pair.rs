@@ -132,6 +132,7 @@ impl<'a> PairFunction<'a> {
             slipped: self.counts.map(|count| vec![false; count]),
             bedded: self.counts.map(|count| vec![0.5; count]),
             accumulated: self.counts.map(|count| vec![0.1; count]),
+            states: self.counts.map(|count| vec![0.7; count]),
             // Every other one, so that both terms of the ramp count.
             stuck: self
                 .counts
@@ -245,6 +246,12 @@ impl<'a> PairFunction<'a> {
             }
         }
         u
+    }
+
+    /// Unknowns of nodes that are pressed, with any friction: rows of friction that depends on rate
+    /// and state have an exact Jacobian everywhere.
+    pub fn pressed(&self, pressure: f64) -> DVector<f64> {
+        self.placed(Wanted::Slip, pressure)
     }
 
     /// With the slip rows satisfied.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use striae_law::friction::{Friction, Law, RequiredTextures};
+use striae_law::friction::{Friction, Law, RateAndState, RequiredTextures};
 use striae_model::{Model, Pair};
 
 use super::{Advice, Topic};
@@ -105,6 +105,9 @@ fn of_dependences(name: &str, when: &str, friction: &Friction, advice: &mut Advi
         );
         advice.note(Topic::Friction, name, text);
     }
+    if let Some(law) = friction.rate_and_state() {
+        advice.note(Topic::Friction, name, of_state(name, when, law));
+    }
     if let Some([from, to]) = by_pressure.falling() {
         let text = format!(
             "pair `{name}`: friction{when} falls as the pressure rises from {from} to {to}, since factors fall faster than 1/p there; increments may have several solutions. Unless this is measured, make factors times pressures ascend"
@@ -122,6 +125,26 @@ fn of_dependences(name: &str, when: &str, friction: &Friction, advice: &mut Advi
         );
         advice.note(Topic::Friction, name, text);
     }
+}
+
+/// Text on friction that depends on rate and state: its steady course, and what increments need.
+fn of_state(name: &str, when: &str, law: &RateAndState) -> String {
+    let RateAndState {
+        direct_effect: a,
+        evolution_effect: b,
+        slip_distance,
+        ..
+    } = law;
+    let course = match b > a {
+        true => format!(
+            "falls in faster steady slip, which is unstable on springs below {:.4e} times the pressure, (b - a)/D, per area: increments may then have several solutions, and steps without inertia jump. Facets must be smaller than E D/(b p) for slip to grow from a part of the surface",
+            (b - a) / slip_distance
+        ),
+        false => "does not fall in faster steady slip, which is stable".to_owned(),
+    };
+    format!(
+        "pair `{name}`: friction{when} depends on rate and state and {course}. Slip in an increment should be some tenths of D = {slip_distance:.4e}, and steps must have their true durations"
+    )
 }
 
 fn large(name: &str, when: &str, mu: f64, advice: &mut Advice) {

@@ -59,8 +59,8 @@ pub fn coefficients(friction: &Friction, analyses: &[Analysis]) -> Figure {
     drawn(friction, analyses, friction.coefficient().at_rest(), "p")
 }
 
-/// Coefficients of friction over the pressure at rest, and over slip rate and accumulated slip
-/// at the pressure at which they are the stated ones; `None` where they depend on none of them.
+/// Coefficients of friction over the pressure at rest, and over slip rate, in steady slip if they
+/// depend on a state, and accumulated slip at the pressure at which they are the stated ones; `None` where they depend on none of them.
 pub fn dependence(friction: &Friction) -> Option<Figure> {
     let coefficient = friction.coefficient();
     let (mu, by_pressure) = (coefficient.at_rest(), coefficient.by_pressure());
@@ -79,6 +79,12 @@ pub fn dependence(friction: &Friction) -> Option<Figure> {
         let at_rate = |v: f64| coefficient.at_slip_rate(v);
         let panel = Panel::new(Axis::linear("v", ""), Axis::linear("μ R(v)", ""));
         panels.push(panel.with(curve(last, &at_rate)).titled("slip rate"));
+    }
+    if let Some(law) = coefficient.by_state().constants() {
+        let at_rate = |v: f64| coefficient.at_slip_rate(v);
+        let panel = Panel::new(Axis::linear("v", ""), Axis::linear("μ(v, D/v)", ""));
+        let curve = curve(100.0 * law.slip_rate, &at_rate);
+        panels.push(panel.with(curve).titled("slip rate, steady"));
     }
     if let Some(last) = coefficient.by_slip().scale() {
         let after = |s: f64| mu * coefficient.by_slip().at(s);

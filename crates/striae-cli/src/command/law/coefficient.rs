@@ -18,8 +18,13 @@ pub(super) fn coefficient(friction: &Friction) -> String {
     let by_pressure = mu.by_pressure().is_some();
     let by_rate = mu.by_rate().is_some() && !decay;
     let by_slip = mu.by_slip().is_some();
+    let by_state = mu.by_state().is_some();
     words += ", varpi = mu";
-    words += if by_rate { " R(v)" } else { "" };
+    words += match (by_rate, by_state) {
+        (true, _) => " R(v)",
+        (false, true) => "(v, theta)",
+        (false, false) => "",
+    };
     words += if by_slip { " W(s)" } else { "" };
     words += if by_pressure { " P(p)" } else { " p" };
     if let Some(cap) = friction.shear_cap() {
@@ -27,6 +32,9 @@ pub(super) fn coefficient(friction: &Friction) -> String {
     }
     if by_rate {
         words += &format!("\n  slip rate: R(v) = {}", mu.by_rate());
+    }
+    if by_state {
+        words += &format!("\n  rate and state: mu(v, theta) = {}", mu.by_state());
     }
     if by_slip {
         words += &format!("\n  accumulated slip: W(s) = {}", mu.by_slip());

@@ -30,6 +30,8 @@ pub fn of_friction(title: &str, friction: &Friction, theta: &[f64]) -> Value {
     let by_pressure = by_pressure.is_some().then(|| by_pressure.to_string());
     let by_slip = coefficient.by_slip();
     let by_slip = by_slip.is_some().then(|| by_slip.to_string());
+    let by_state = coefficient.by_state();
+    let by_state = by_state.is_some().then(|| by_state.to_string());
     let by_rate = coefficient.by_rate();
     let by_rate = by_rate.is_some().then(|| by_rate.to_string());
     json!({
@@ -39,6 +41,7 @@ pub fn of_friction(title: &str, friction: &Friction, theta: &[f64]) -> Value {
         "by_pressure": by_pressure,
         "by_slip_rate": by_rate,
         "by_accumulated_slip": by_slip,
+        "by_state": by_state,
         "shear_cap": friction.shear_cap(),
         "slip_surfaces": surfaces.collect::<Vec<_>>(),
     })

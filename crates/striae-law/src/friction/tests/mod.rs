@@ -9,6 +9,7 @@ mod laws;
 mod own;
 mod reference;
 mod slip_surface;
+mod state;
 mod tabulated;
 
 use nalgebra::Vector3;
