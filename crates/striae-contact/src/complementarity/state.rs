@@ -196,22 +196,18 @@ impl<'a> NodeState<'a> {
         }
     }
 
-    /// Returns whether a component of a triple is such a position and not prescribed.
-    pub(super) fn is_free_position(&self, first: u32, axis: usize) -> bool {
-        match self.numbering.unknown(first) {
-            Unknown::Position { side, node, .. } => {
-                self.answers(first) && !self.prescribed[side][3 * node.index() + axis]
-            }
-            Unknown::Traction { .. } => false,
-        }
-    }
-
     /// Returns whether a free position changes the gap.
     pub(super) fn is_free(&self) -> bool {
         let reaches = &self.node.kinematics.reaches;
-        reaches.iter().any(|(first, slope)| {
-            (0..3).any(|axis| slope[axis].abs() > FIXED && self.is_free_position(*first, axis))
-        })
+        reaches
+            .iter()
+            .any(|(first, slope)| match self.numbering.unknown(*first) {
+                Unknown::Position { side, node, .. } => {
+                    self.answers(*first)
+                        && self.prescribed.free_slope(side, node, slope).amax() > FIXED
+                }
+                Unknown::Traction { .. } => false,
+            })
     }
 
     /// `varpi` at a slip rate.
