@@ -1,4 +1,6 @@
 //! `[[curve]]` and `[[step]]` with its conditions.
+//!
+//! Longer than other files, as it is the one list of all that a step can state.
 
 use super::{Actuation, Friction};
 use crate::{
