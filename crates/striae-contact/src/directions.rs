@@ -30,7 +30,7 @@ mod gram;
 
 use std::collections::BTreeMap;
 
-use nalgebra::{Matrix2, SymmetricEigen, Vector2};
+use nalgebra::{Matrix2, Matrix3, SymmetricEigen, Vector2};
 use striae_mesh::Vec3;
 use striae_surface::node::SurfaceNode;
 
@@ -61,12 +61,24 @@ pub struct Mover {
     pub number: u32,
     /// Components that are prescribed.
     pub prescribed: [bool; 3],
+    /// Axes of the components in columns, where they are not the coordinate axes.
+    pub axes: Option<Matrix3<f64>>,
 }
 
 impl Mover {
     /// Returns whether nothing moves it but displacements.
     fn is_rigid(&self) -> bool {
         self.prescribed == [true; 3]
+    }
+
+    /// Projection to the directions that are not prescribed.
+    fn free(&self) -> Matrix3<f64> {
+        let free = self.prescribed.map(|held| f64::from(u8::from(!held)));
+        let along_axes = Matrix3::from_diagonal(&free.into());
+        match self.axes {
+            Some(axes) => axes * along_axes * axes.transpose(),
+            None => along_axes,
+        }
     }
 }
 
@@ -137,17 +149,16 @@ fn disturbed(parties: &[Party]) -> Option<BTreeMap<u32, bool>> {
 struct Actions {
     /// By number of the mover, with prescribed components.
     whole: BTreeMap<u32, [Vec3; 3]>,
-    /// Components of the movers that are free.
-    free: BTreeMap<u32, Vec3>,
+    /// Projections to what is free of the movers.
+    free: BTreeMap<u32, Matrix3<f64>>,
     is_closed: bool,
 }
 
 impl Actions {
     /// The part of an action that moves anything.
     fn column(&self, component: usize) -> Column {
-        let free = |(number, whole): (&u32, &[Vec3; 3])| {
-            (*number, whole[component].component_mul(&self.free[number]))
-        };
+        let free =
+            |(number, whole): (&u32, &[Vec3; 3])| (*number, self.free[number] * whole[component]);
         self.whole.iter().map(free).collect()
     }
 }
@@ -203,8 +214,7 @@ fn actions(party: &Party) -> Vec<Actions> {
                 for (sum, direction) in whole[1..].iter_mut().zip(&directions) {
                     *sum += direction * friction;
                 }
-                let free = mover.prescribed.map(|held| f64::from(u8::from(!held)));
-                actions[k].free.insert(mover.number, free.into());
+                actions[k].free.insert(mover.number, mover.free());
             }
         }
     }

@@ -7,13 +7,35 @@
 //!
 //! A rigid side `b` has no unknowns.
 
+use std::collections::BTreeMap;
+
 use crate::side::Side;
 use nalgebra::Matrix3;
 use striae_mesh::Vec3;
 use striae_surface::node::SurfaceNode;
 
-/// Prescribed position unknowns, by side, three a node.
-pub type Prescribed = [Vec<bool>; 2];
+/// Prescribed positions of the nodes of both sides.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Prescribed {
+    /// `true` for prescribed components, three a node, by side.
+    pub components: [Vec<bool>; 2],
+    /// Axes of the components in columns, of nodes where they are not the coordinate axes.
+    pub axes: [BTreeMap<usize, Matrix3<f64>>; 2],
+}
+
+impl Prescribed {
+    /// Slope of a quantity by the position of a node along its axes, where that is free; zero
+    /// where it is prescribed.
+    pub fn free_slope(&self, side: Side, node: SurfaceNode, slope: &Vec3) -> Vec3 {
+        let along = match self.axes[side].get(&node.index()) {
+            Some(axes) => axes.tr_mul(slope),
+            None => *slope,
+        };
+        let held = &self.components[side][3 * node.index()..3 * node.index() + 3];
+        Vec3::from_fn(|axis, _| if held[axis] { 0.0 } else { along[axis] })
+    }
+}
+
 /// Derivatives of a vector: `(first unknown of a triple, d vector / d triple)`. Unknowns of
 /// contact come in triples: positions and tractions.
 pub type Jacobian = Vec<(u32, Matrix3<f64>)>;

@@ -5,7 +5,8 @@
 use std::path::PathBuf;
 use striae_deck::{Deck, convert, parse};
 use striae_law::{declared::Kind, friction::Law};
-use striae_solve::model::{Curve, LoadKind, Procedure, RigidShape};
+use striae_mesh::Vec3;
+use striae_solve::model::{Axes, Curve, Displacement, LoadKind, Procedure, RigidShape};
 
 /// A part of one cube with its sides as sets and surfaces.
 const CUBE: &str = "*PART, NAME=Cube
@@ -396,6 +397,40 @@ Pad-1.High, 20.
         assert!(text.contains(what), "{text}");
     }
     assert_eq!(listed.len(), 6, "{said}");
+}
+
+#[test]
+fn transformed_nodes_are_prescribed_in_their_axes() {
+    let transforms = "*TRANSFORM, NSET=Pad-1.High, TYPE=C\n0., 0., 0., 0., 0., 2.
+*TRANSFORM, NSET=Base-1.Low\n1., 1., 0., 0., 1., 0.
+*TRANSFORM, NSET=Base-1.High, TYPE=S\n0., 0., 0., 0., 0., 1.\n";
+    let (_, listed, deck) = converted(&model(transforms, STEP));
+    let stated = &deck.model.steps[0].displacements;
+    let axes = |body: &str, set: &str| {
+        let mut all = stated.iter();
+        let named = |of: &&Displacement| {
+            deck.model.bodies[of.body.0].name == body && of.set.eq_ignore_ascii_case(set)
+        };
+        all.find(named).expect("it is prescribed").axes
+    };
+    assert_eq!(
+        axes("Base-1", "Low"),
+        Axes::Skew {
+            x: Vec3::new(1.0, 1.0, 0.0),
+            y: Vec3::y(),
+        }
+    );
+    assert_eq!(
+        axes("Pad-1", "High"),
+        Axes::Cylindrical {
+            point: Vec3::zeros(),
+            axis: Vec3::new(0.0, 0.0, 2.0),
+        }
+    );
+    assert_eq!(axes("Pad-1", "Low"), Axes::Global);
+    // Spherical axes have no counterpart.
+    assert_eq!(listed.len(), 1, "{listed:?}");
+    assert!(listed[0].contains("*TRANSFORM"), "{listed:?}");
 }
 
 #[test]

@@ -74,6 +74,15 @@ impl Stiffness {
         self.entries[[0, 3, 5][axis] * n * n + a * n + b] += value;
     }
 
+    /// Adds a symmetric block to the derivative of the force on corner `a` by the position of
+    /// corner `b`.
+    pub fn add_between(&mut self, a: usize, b: usize, block: &[[f64; 3]; 3]) {
+        let n = self.corners;
+        for (at, (i, k)) in COMPONENTS.into_iter().enumerate() {
+            self.entries[at * n * n + a * n + b] += block[i][k];
+        }
+    }
+
     /// The blocks of [`COMPONENTS`] for `N` corners, by the corners `a` and `b`.
     pub(super) fn blocks_mut<const N: usize>(&mut self) -> Blocks<'_, N> {
         let (rows, _) = self.entries.as_chunks_mut::<N>();

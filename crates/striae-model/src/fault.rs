@@ -322,6 +322,40 @@ pub enum FaultKind {
         /// The node set.
         set: String,
     },
+    /// A displacement along an axis that does not exist.
+    #[error(
+        "the displacement of `{set}` of body `{body}` states `{component}`{}: {reason}", at_node(*node)
+    )]
+    NoDirection {
+        /// The body.
+        body: String,
+        /// The node set.
+        set: String,
+        /// `x`, `y` or `z`.
+        component: char,
+        /// A node for which that is so, if it depends on the node.
+        node: Option<NodeId>,
+        /// Reason, and what to do.
+        reason: &'static str,
+    },
+    /// A node is prescribed along directions that are not independent.
+    #[error(
+        "in step `{step}` {node} of body `{body}` is prescribed along {count} directions, and the last one, `{component}` of `{set}`, follows from the others or nearly so; leave it out there, or release others first"
+    )]
+    DependentDirections {
+        /// The step.
+        step: String,
+        /// The body.
+        body: String,
+        /// A node for which that is so.
+        node: NodeId,
+        /// Number of directions.
+        count: usize,
+        /// The node set that was stated last.
+        set: String,
+        /// `x`, `y` or `z`.
+        component: char,
+    },
     /// One component of a node is prescribed twice in one step.
     #[error(
         "step `{step}` prescribes component `{component}` of {node} of body `{body}` twice: \
@@ -680,6 +714,10 @@ fn unopposed(load: &f64, pairs: &[String]) -> String {
             "nothing resists this motion: it would fly off, and the contact of {pairs} would have no force; prescribe displacements that restrain it, or load it towards the contact"
         ),
     }
+}
+
+fn at_node(node: Option<NodeId>) -> String {
+    node.map_or_else(String::new, |node| format!(" at {node}"))
 }
 
 fn leaves(motions: &usize) -> String {

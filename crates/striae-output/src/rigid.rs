@@ -203,9 +203,16 @@ fn travels(problem: &Problem, body: usize, rigid: usize) -> Vec<Vec3> {
             // A function stands for what it is at one of the nodes.
             let node = displacement.nodes.first();
             let x = node.map(|node| model.bodies[body].mesh.positions[node.index()]);
-            for (axis, target) in displacement.components.iter().enumerate() {
-                if let (Some(target), Some(x)) = (target, x) {
-                    to[0][axis] = target.at(&x, start.later(1.0).time);
+            let Some(x) = x else { continue };
+            let directions = displacement.axes.directions(&x).into_iter();
+            let stated = directions.zip(&displacement.components).enumerate();
+            for (axis, (direction, target)) in stated {
+                if let (Some(direction), Some(target)) = (direction, target) {
+                    let along = target.at(&x, start.later(1.0).time);
+                    match displacement.axes.are_global() {
+                        true => to[0][axis] = along,
+                        false => to[0] += direction * (along - direction.dot(&to[0])),
+                    }
                 }
             }
         }

@@ -2,7 +2,7 @@
 
 use pyo3::{exceptions::PyValueError, prelude::*};
 use striae::model::{
-    ActuationKind, Clock, Component, Course, Curve, Freedom, Function, History, Increments,
+    ActuationKind, Axes, Clock, Component, Course, Curve, Freedom, Function, History, Increments,
     LoadExtent, LoadKind, StepBuilder, Value, equal_increments, step,
 };
 use striae::solve::actuation::strain_in_axes;
@@ -138,15 +138,29 @@ impl Step {
         &mut self,
         body: &str,
         nodes: &str,
+        axes: (String, Vec<[f64; 3]>),
         components: [Option<Target>; 3],
         along: Along,
     ) -> PyResult<()> {
         let curve = along.curve()?;
+        let (kind, vectors) = axes;
+        let axes = match (kind.as_str(), &vectors[..]) {
+            ("normal", [normal]) => Axes::Normal((*normal).into()),
+            ("two", [x, y]) => Axes::Skew {
+                x: (*x).into(),
+                y: (*y).into(),
+            },
+            ("cylindrical", [point, axis]) => Axes::Cylindrical {
+                point: (*point).into(),
+                axis: (*axis).into(),
+            },
+            _ => Axes::Global,
+        };
         let mut targets = [None, None, None];
         for (target, stated) in targets.iter_mut().zip(components) {
             *target = stated.map(Target::value).transpose()?;
         }
-        self.build(|step| step.displace(body, nodes, targets).along(curve));
+        self.build(|step| step.displace_in(axes, body, nodes, targets).along(curve));
         Ok(())
     }
 

@@ -175,6 +175,7 @@ fn in_phases(
     let norms = system.norms(trial, &contacts);
     contacts.iter_mut().for_each(Evaluation::forget_derivatives);
     [bodies.strain, bodies.dissipated] = share.sums([bodies.strain, bodies.dissipated]);
+    system.turn_rows();
     system.idle(setting.selections);
     system.prescribe(trial, imposed);
     system.prescribe_rigid(trial, imposed);
@@ -335,6 +336,16 @@ impl System<'_> {
         }
     }
 
+    /// Takes the rows of nodes with axes of their own along these.
+    fn turn_rows(&mut self) {
+        for (node, frame) in self.context.turned.frames() {
+            let first = self.layout.position(node);
+            let rows = &mut self.residual[first..first + 3];
+            let along = frame.axes().tr_mul(&Vec3::from_column_slice(rows));
+            rows.copy_from_slice(along.as_slice());
+        }
+    }
+
     fn prescribe(&mut self, trial: &Trial, imposed: &Imposed) {
         let shear = |node: GlobalNode| {
             let (body, _) = self.context.problem.body_node(node);
@@ -344,7 +355,7 @@ impl System<'_> {
             .positions
             .iter()
             .map(|(node, axis, position)| {
-                let residual = trial.positions[*node][*axis] - position;
+                let residual = self.context.along(*node, *axis, &trial.positions[*node]) - position;
                 (self.layout.position(*node) + axis, residual, shear(*node))
             })
             .collect();

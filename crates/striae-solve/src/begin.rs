@@ -46,7 +46,7 @@ pub fn begin(
         }
         follow_bodies(&context, &mut velocities);
         for rate in &imposed.rates {
-            velocities[rate.node][rate.axis] = rate.velocity;
+            rate.put(&mut velocities, rate.velocity);
         }
         problem.ties.follow(&mut velocities);
         let assembled = assembled_at_start(&context, state, workspace)?;

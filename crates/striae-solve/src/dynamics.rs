@@ -64,10 +64,33 @@ pub struct ImposedRate {
     pub node: GlobalNode,
     /// Component.
     pub axis: usize,
+    /// Unit vector along it, where it is not along a coordinate axis.
+    pub direction: Option<Vec3>,
     /// Velocity.
     pub velocity: f64,
     /// Acceleration.
     pub acceleration: f64,
+}
+
+impl ImposedRate {
+    /// The component of the vector of its node.
+    fn component(&self, vectors: &[Vec3]) -> f64 {
+        match self.direction {
+            Some(direction) => direction.dot(&vectors[self.node]),
+            None => vectors[self.node][self.axis],
+        }
+    }
+
+    /// Puts the component of the vector of its node to a value.
+    pub(crate) fn put(&self, vectors: &mut [Vec3], value: f64) {
+        match self.direction {
+            Some(direction) => {
+                let change = value - direction.dot(&vectors[self.node]);
+                vectors[self.node] += direction * change;
+            }
+            None => vectors[self.node][self.axis] = value,
+        }
+    }
 }
 
 /// Inertial quantities of the current increment.
@@ -159,8 +182,8 @@ impl Motion {
             })
             .collect();
         for rate in rates {
-            let (a_0, a_1) = ends_of(rate.node, rate.axis);
-            weighted[rate.node][rate.axis] = mean(self.scheme.alpha_f, a_0, a_1);
+            let (a_0, a_1) = (rate.component(&self.accelerations), rate.component(&ends));
+            rate.put(&mut weighted, mean(self.scheme.alpha_f, a_0, a_1));
         }
         weighted
     }
@@ -176,7 +199,7 @@ impl Motion {
             })
             .collect();
         for rate in rates {
-            velocities[rate.node][rate.axis] = rate.velocity;
+            rate.put(&mut velocities, rate.velocity);
         }
         (velocities, accelerations)
     }
@@ -189,7 +212,7 @@ impl Motion {
             .map(|(x, predicted)| (x - predicted) * factor)
             .collect();
         for rate in rates {
-            accelerations[rate.node][rate.axis] = rate.acceleration;
+            rate.put(&mut accelerations, rate.acceleration);
         }
         accelerations
     }

@@ -285,7 +285,7 @@ impl Rows {
                 continue;
             };
             for axis in (0..3).filter(|axis| context.fixed[node.component(*axis)]) {
-                let row = self.entries(component, &at.nodes[node], &Vec3::ith(axis, 1.0));
+                let row = self.entries(component, &at.nodes[node], &context.axis(node, axis));
                 self.add(&[(component, row)]);
             }
         }

@@ -3,6 +3,7 @@
 pub mod actuation;
 pub mod assembly;
 pub mod audit;
+pub mod axes;
 mod begin;
 mod body_mass;
 mod composition;

@@ -11,7 +11,10 @@ use striae_law::{bulk::Material, friction::Friction};
 use striae_mesh::{ElementId, Face, Mesh, NodeId, Vec3};
 use striae_surface::texture::Paint;
 
-pub use crate::function::{Function, NoFunction, Value};
+pub use crate::{
+    axes::Axes,
+    function::{Function, NoFunction, Value},
+};
 
 /// A whole problem.
 #[derive(Clone, Debug, Serialize)]
@@ -413,6 +416,8 @@ pub struct Displacement {
     pub body: BodyId,
     /// Its nodes.
     pub nodes: Vec<NodeId>,
+    /// Axes of the components.
+    pub axes: Axes,
     /// Target by component; `None` leaves the component as it is.
     pub components: [Option<Value>; 3],
     /// Curve towards the target.
@@ -424,6 +429,18 @@ impl Displacement {
     pub fn numbers(&self) -> [Option<f64>; 3] {
         let components = self.components.each_ref();
         components.map(|component| component.as_ref().and_then(Value::number))
+    }
+
+    /// Vector of the targets that are numbers at the first node, where the others are zero.
+    pub fn way(&self, mesh: &Mesh) -> Vec3 {
+        let place = |node: &NodeId| mesh.positions[node.index()];
+        let Some(x) = self.nodes.first().map(place) else {
+            return Vec3::zeros();
+        };
+        let along = self.axes.directions(&x).into_iter().zip(self.numbers());
+        along
+            .filter_map(|(direction, target)| Some(direction? * target?))
+            .sum()
     }
 
     /// Returns whether a target is a function.
@@ -440,7 +457,7 @@ pub struct Release {
     pub body: BodyId,
     /// Its nodes.
     pub nodes: Vec<NodeId>,
-    /// Components that become free.
+    /// Components that become free, in whatever axes they were stated.
     pub components: [bool; 3],
 }
 

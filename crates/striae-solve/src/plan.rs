@@ -3,14 +3,16 @@
 mod planned;
 
 use planned::NO_FORCE;
-pub use planned::{PlannedActuation, PlannedForce, PlannedLoad, Prescription, VectorPlan};
+pub use planned::{Oblique, PlannedActuation, PlannedForce, PlannedLoad, Prescription, VectorPlan};
 
 use std::collections::BTreeMap;
 
 use striae_law::friction::Friction;
+use striae_mesh::Vec3;
 
 use crate::{
     actuation::{Actuations, SectionActuation},
+    axes::{Axes, are_parallel},
     model::{Body, Curve, Freedom, Model, Moment, Step},
 };
 
@@ -19,8 +21,11 @@ use crate::{
 pub struct StepPlan {
     /// Its start.
     pub start: Moment,
-    /// Prescribed components of displacement by `(body, node, axis)`.
+    /// Prescribed components of displacement by `(body, node, axis)`, along the coordinate axes.
     pub displacements: BTreeMap<(usize, usize, usize), Prescription>,
+    /// Those along other directions by `(body, node)`; none of a node is along a coordinate axis
+    /// that is in `displacements`.
+    pub oblique: BTreeMap<(usize, usize), Vec<Oblique>>,
     /// Loads.
     pub loads: Vec<PlannedLoad>,
     /// Forces at nodes.
@@ -76,6 +81,7 @@ pub fn plans(model: &Model) -> Vec<StepPlan> {
     let mut plan = StepPlan {
         start: Moment::start(0.0),
         displacements: BTreeMap::new(),
+        oblique: BTreeMap::new(),
         loads: Vec::new(),
         forces: Vec::new(),
         actuations: Vec::new(),
@@ -100,9 +106,11 @@ pub fn plans(model: &Model) -> Vec<StepPlan> {
 }
 
 fn next(before: &StepPlan, step: &Step, bodies: &[Body]) -> StepPlan {
+    let (displacements, oblique) = displacements(before, step, bodies);
     StepPlan {
         start: before.start,
-        displacements: displacements(before, step),
+        displacements,
+        oblique,
         loads: loads(before, step),
         forces: forces(before, step),
         actuations: actuations(before, step, bodies),
@@ -113,28 +121,70 @@ fn next(before: &StepPlan, step: &Step, bodies: &[Body]) -> StepPlan {
     }
 }
 
-fn displacements(before: &StepPlan, step: &Step) -> BTreeMap<(usize, usize, usize), Prescription> {
+/// Prescribed components along the coordinate axes, and along other directions.
+type Prescribed = (
+    BTreeMap<(usize, usize, usize), Prescription>,
+    BTreeMap<(usize, usize), Vec<Oblique>>,
+);
+
+fn displacements(before: &StepPlan, step: &Step, bodies: &[Body]) -> Prescribed {
     let hold = |(key, _): (&(usize, usize, usize), &Prescription)| (*key, Prescription::Hold);
     let mut all: BTreeMap<_, _> = before.displacements.iter().map(hold).collect();
+    let held = |(key, of_node): (&(usize, usize), &Vec<Oblique>)| {
+        (*key, of_node.iter().map(Oblique::held).collect())
+    };
+    let mut oblique: BTreeMap<_, Vec<Oblique>> = before.oblique.iter().map(held).collect();
     for release in &step.releases {
         for node in &release.nodes {
             for axis in (0..3).filter(|&axis| release.components[axis]) {
                 all.remove(&(release.body.0, node.index(), axis));
             }
+            if let Some(of_node) = oblique.get_mut(&(release.body.0, node.index())) {
+                of_node.retain(|known| !release.components[known.component]);
+            }
         }
     }
     for condition in &step.displacements {
+        let body = condition.body.0;
         for node in &condition.nodes {
-            for (axis, component) in condition.components.iter().enumerate() {
-                if let Some(target) = component.clone() {
-                    let curve = condition.curve.clone();
-                    let key = (condition.body.0, node.index(), axis);
-                    all.insert(key, Prescription::Go { target, curve });
+            let node = node.index();
+            let directions = match condition.axes {
+                Axes::Global => None,
+                axes => Some(axes.directions(&bodies[body].mesh.positions[node])),
+            };
+            for (component, target) in condition.components.iter().enumerate() {
+                let Some(target) = target.clone() else {
+                    continue;
+                };
+                let curve = condition.curve.clone();
+                let how = Prescription::Go { target, curve };
+                let Some(directions) = &directions else {
+                    if let Some(of_node) = oblique.get_mut(&(body, node)) {
+                        let along = Vec3::ith(component, 1.0);
+                        of_node.retain(|known| !are_parallel(&known.direction, &along));
+                    }
+                    all.insert((body, node, component), how);
+                    continue;
+                };
+                if let Some(direction) = directions[component] {
+                    for axis in 0..3 {
+                        if are_parallel(&Vec3::ith(axis, 1.0), &direction) {
+                            all.remove(&(body, node, axis));
+                        }
+                    }
+                    let of_node = oblique.entry((body, node)).or_default();
+                    of_node.retain(|known| !are_parallel(&known.direction, &direction));
+                    of_node.push(Oblique {
+                        component,
+                        direction,
+                        how,
+                    });
                 }
             }
         }
     }
-    all
+    oblique.retain(|_, of_node| !of_node.is_empty());
+    (all, oblique)
 }
 
 fn loads(before: &StepPlan, step: &Step) -> Vec<PlannedLoad> {

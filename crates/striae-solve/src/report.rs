@@ -94,8 +94,9 @@ pub fn held_reactions(problem: &Problem, state: &State) -> Vec<(String, Vec3)> {
         .plans
         .iter()
         .flat_map(|plan| plan.displacements.keys());
-    let prescribed: BTreeSet<(usize, usize)> =
-        prescribed.map(|&(body, node, _)| (body, node)).collect();
+    let oblique = problem.plans.iter().flat_map(|plan| plan.oblique.keys());
+    let prescribed = prescribed.map(|&(body, node, _)| (body, node));
+    let prescribed: BTreeSet<(usize, usize)> = prescribed.chain(oblique.copied()).collect();
     let holds = |body: usize, node: NodeId| {
         let tied = problem.tie_of[problem.node(body, node)];
         tied.is_some() || prescribed.contains(&(body, node.index()))

@@ -132,7 +132,7 @@ impl Frame {
             .filter(|node| problem.share.owns(*node))
         {
             for axis in (0..3).filter(|axis| context.fixed[node.component(*axis)]) {
-                let row = self.wrench(&state.positions[node], &Vec3::ith(axis, 1.0));
+                let row = self.wrench(&state.positions[node], &context.axis(node, axis));
                 normal += row * row.transpose();
             }
         }

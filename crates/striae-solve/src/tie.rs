@@ -15,8 +15,9 @@
 //! "A 3D mortar method for solid mechanics", Int. J. Numer. Meth. Engng. 59 (2004),
 //! doi:10.1002/nme.865.
 //!
-//! A node follows no row where it is prescribed in any step, tied to a rigid body, next to
-//! nothing of the facets around it is covered, or it follows another tie. The functions of the
+//! A node follows no row where it is prescribed in any step, in all components where that is not
+//! along the coordinate axes, where it is tied to a rigid body, next to nothing of the facets
+//! around it is covered, or it follows another tie. The functions of the
 //! facets around it then go to their other nodes in equal parts, so that they still add up to
 //! one. What a node follows may follow another tie in turn; rows that follow each other in
 //! a circle are solved together, and are a [`TieFault`] where they say the same.

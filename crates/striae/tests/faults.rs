@@ -163,6 +163,7 @@ fn displaced(
     z: Option<f64>,
 ) -> striae::model::Displacement {
     striae::model::Displacement {
+        axes: striae::model::Axes::Global,
         set: set.into(),
         body: striae::model::BodyId(1),
         nodes: bodies[1].mesh.node_sets.get(set).unwrap().to_vec(),

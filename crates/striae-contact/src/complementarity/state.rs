@@ -195,10 +195,9 @@ impl<'a> NodeState<'a> {
             let Unknown::Position { side, node, .. } = self.numbering.unknown(*first) else {
                 return false;
             };
-            let is_free = |axis: usize| !self.prescribed[side][3 * node.index() + axis];
             let answers =
                 node == self.node.node && side == self.node.side || self.is_opposite(side, reach);
-            answers && (0..3).any(|axis| reach[axis].abs() > FIXED && is_free(axis))
+            answers && self.prescribed.free_slope(side, node, reach).amax() > FIXED
         })
     }
 

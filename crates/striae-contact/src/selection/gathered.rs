@@ -132,8 +132,8 @@ impl Gathered {
         prescribed: &Prescribed,
     ) -> TractionBasis {
         let (Roles::After(kept) | Roles::Given(kept)) = roles;
-        let nodes =
-            Side::BOTH.map(|side| surface_nodes(configuration, side, kept, &prescribed[side]));
+        let nodes = Side::BOTH
+            .map(|side| surface_nodes(configuration, side, kept, &prescribed.components[side]));
         let (whole, mesh);
         let opponent = match &configuration.pair.sides[Side::B].geometry {
             Geometry::Deformable(_) => Opponent::Deformable,

@@ -30,6 +30,8 @@ pub(super) struct History {
 #[derive(Default)]
 pub(super) struct Stated {
     pub(super) prescribed: BTreeMap<Component, (f64, Option<String>)>,
+    /// Axes of node sets that have their own, by body.
+    axes: BTreeMap<(usize, String), String>,
     /// `true` if conditions that are not stated again end.
     pub(super) is_new: bool,
     pub(super) pressures: Vec<String>,
@@ -101,8 +103,12 @@ impl<'a> Model<'a> {
                     format!("*BOUNDARY of `{word}`, which belongs to no body and no rigid body");
                 self.list(row.line, what);
             }
+            let axes = self.axes(word);
             for target in targets {
                 let is_solid = matches!(target, Target::Nodes(..));
+                if let (Target::Nodes(body, set), Some(axes)) = (&target, &axes) {
+                    stated.axes.insert((*body, set.clone()), axes.clone());
+                }
                 if is_solid && held.iter().all(|component| *component > 2) {
                     self.list(row.line, format!("*BOUNDARY: rotations of `{word}`"));
                 }
@@ -119,6 +125,27 @@ impl<'a> Model<'a> {
                 }
             }
         }
+    }
+
+    /// Axes of the nodes that a word stands for, by `*TRANSFORM`.
+    fn axes(&mut self, word: &str) -> Option<String> {
+        let of_word =
+            |keyword: &&Keyword<'_>| keyword.name == "TRANSFORM" && has(keyword, "NSET", word);
+        let keyword = self.keywords.iter().find(of_word)?;
+        let all = numbers(&keyword.rows.first()?.words)?;
+        let (a, b) = all.get(..6)?.split_at(3);
+        let told = |vector: &[f64]| list(vector.iter().map(|x| number(*x)));
+        let kind = keyword.parameter("TYPE").unwrap_or("R").to_uppercase();
+        let axes = match kind.as_str() {
+            "R" => list([a, b].map(told)),
+            "C" => {
+                let along: Vec<f64> = a.iter().zip(b).map(|(a, b)| b - a).collect();
+                format!("{{ point = {}, axis = {} }}", told(a), told(&along))
+            }
+            _ => return None,
+        };
+        self.used.insert(keyword.line);
+        Some(axes)
     }
 
     /// Targets that a word refers to.
@@ -295,9 +322,12 @@ impl Stated {
             *keys += &format!(", {} = {}", ["x", "y", "z"][*component], number(*value));
         }
         let entry = |((body, set, curve), keys): ((usize, &str, &Option<String>), String)| {
+            let axes = self.axes.get(&(body, set.to_owned()));
+            let axes = axes.map(|axes| format!(", axes = {axes}"));
             let (body, set) = (text(&bodies[body].name), text(set));
             format!(
-                "{{ body = {body}, nodes = {set}{keys}{} }}",
+                "{{ body = {body}, nodes = {set}{}{keys}{} }}",
+                axes.unwrap_or_default(),
                 curve_key(curve)
             )
         };

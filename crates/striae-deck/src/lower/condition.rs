@@ -1,12 +1,17 @@
 //! Displacement conditions, releases and loads of a step.
 
 use super::{Listed, Scope, list};
-use crate::{faults::FaultList, raw, read::At, value::Text};
+use crate::{
+    faults::FaultList,
+    raw,
+    read::At,
+    value::{Number, Text, vector},
+};
 use std::collections::BTreeSet;
 use striae_mesh::NodeId;
 use striae_model::{shared_force, usual_curve};
 use striae_solve::model::{
-    BodyId, Curve, Displacement, Load, LoadExtent, LoadKind, NodalForce, Release, Value,
+    Axes, BodyId, Curve, Displacement, Load, LoadExtent, LoadKind, NodalForce, Release, Value,
 };
 
 /// One component of one node of a body.
@@ -61,6 +66,7 @@ pub(super) fn displacements(
         let moves = components.iter().flatten().flatten().any(Value::moves);
         let usual = usual_curve(moves);
         let curve = scope.curves.find_or(usual, value.curve.as_ref(), faults);
+        let axes = value.axes.as_ref().map_or(Some(Axes::Global), axes);
         let (body, set, nodes) = nodes(&value.body, &value.nodes, scope, faults)?;
         for component in (0..3).filter(|component| stated[*component].is_some()) {
             history
@@ -71,6 +77,7 @@ pub(super) fn displacements(
             set: set.into(),
             body,
             nodes,
+            axes: axes?,
             components: components?,
             // A condition that prescribes nothing is a fault whatever its curve.
             curve: match curve {
@@ -79,6 +86,25 @@ pub(super) fn displacements(
             },
         })
     })
+}
+
+/// Axes of the components of a displacement, where they are known.
+fn axes(raw: &At<raw::DisplacementAxes>) -> Option<Axes> {
+    let known = |raw: &Option<At<[Number; 3]>>| Some(vector(&raw.as_ref()?.value));
+    let axes = match &raw.value {
+        raw::DisplacementAxes::Two([x, y]) => Axes::Skew {
+            x: vector(x),
+            y: vector(y),
+        },
+        raw::DisplacementAxes::Stated(raw::StatedAxes::Normal(of)) => {
+            Axes::Normal(known(&of.normal)?)
+        }
+        raw::DisplacementAxes::Stated(raw::StatedAxes::Cylindrical(of)) => Axes::Cylindrical {
+            point: known(&of.point)?,
+            axis: known(&of.axis)?,
+        },
+    };
+    Some(axes)
 }
 
 /// The loads of a step.

@@ -1,4 +1,6 @@
 //! `[[curve]]` and `[[step]]` with its conditions.
+//!
+//! Longer than other files, as it is the one list of all that a step can state.
 
 use super::{Actuation, Friction};
 use crate::{
@@ -207,6 +209,8 @@ table! {
         required body: Text,
         /// Name of its node set.
         required nodes: Text,
+        /// Axes of the components, which stay as they are in the reference configuration: the first one and a vector that determines the second one, a normal, or those of a cylinder. Default: those of the model.
+        optional axes: DisplacementAxes,
         /// Target of the first component; absent components keep their state.
         optional x: Varying,
         /// Target of the second component.
@@ -218,6 +222,55 @@ table! {
     }
 }
 
+/// Axes of the components of a displacement.
+#[derive(Clone, Debug)]
+pub(crate) enum DisplacementAxes {
+    /// First axis and a vector that determines the second one.
+    Two([[Number; 3]; 2]),
+    /// Axes stated in a table.
+    Stated(StatedAxes),
+}
+
+impl Read for DisplacementAxes {
+    fn read(value: &Value<'_>, place: &Place, faults: &mut FaultList<'_>) -> Option<Self> {
+        match value.get_ref() {
+            DeValue::Array(_) => Read::read(value, place, faults).map(Self::Two),
+            DeValue::Table(_) => read_table(value, place, faults).map(Self::Stated),
+            _ => unexpected(value, place, faults, &Self::form()),
+        }
+    }
+
+    fn form() -> Form {
+        Form::Any(vec![<[[Number; 3]; 2]>::form(), StatedAxes::form()])
+    }
+}
+
+either! {
+    /// Axes of the components of a displacement.
+    StatedAxes {
+        Normal(NormalAxis),
+        Cylindrical(CylindricalAxes),
+    }
+}
+
+table! {
+    /// One axis: nodes of which its component is held slide on a plane.
+    NormalAxis {
+        /// A vector along the first axis, of any length; there are no others.
+        required normal: [Number; 3],
+    }
+}
+
+table! {
+    /// Radial, tangential and axial components at the reference position of each node. Tangential ones are lengths, positive by the right-hand rule about the axis.
+    CylindricalAxes {
+        /// A point of the axis of the cylinder.
+        required point: [Number; 3],
+        /// A vector along the axis, of any length.
+        required axis: [Number; 3],
+    }
+}
+
 table! {
     /// End of prescribed displacements.
     Release {
@@ -225,7 +278,7 @@ table! {
         required body: Text,
         /// Name of its node set.
         required nodes: Text,
-        /// Components that become free. Default: all prescribed ones.
+        /// Components that become free, in whatever axes they were stated. Default: all prescribed ones.
         optional components: Vec<At<Component>>,
     }
 }

@@ -2,7 +2,7 @@
 
 use striae_law::declared::degrees;
 use striae_solve::model::{
-    Displacement, Freedom, Load, LoadExtent, LoadKind, Mover, NodalForce, Procedure, Release,
+    Axes, Displacement, Freedom, Load, LoadExtent, LoadKind, Mover, NodalForce, Procedure, Release,
     RigidMotion, Step, Velocity,
 };
 
@@ -137,6 +137,15 @@ impl<'m> Writer<'m> {
         let set = self.meshes.nodes(one.body, &one.set, &one.nodes);
         let body = text(&self.model.bodies[one.body.0].name);
         let mut told = format!("body = {body}, nodes = {}", text(&set));
+        told += &match &one.axes {
+            Axes::Global => String::new(),
+            Axes::Normal(normal) => format!(", axes = {{ normal = {} }}", vector(normal)),
+            Axes::Skew { x, y } => format!(", axes = {}", list([x, y].map(vector))),
+            Axes::Cylindrical { point, axis } => {
+                let (point, axis) = (vector(point), vector(axis));
+                format!(", axes = {{ point = {point}, axis = {axis} }}")
+            }
+        };
         for (name, component) in COORDINATES.iter().zip(&one.components) {
             if let Some(target) = component {
                 told += &format!(", {name} = {}", varying(target));

@@ -8,8 +8,8 @@ use nalgebra::Vector3;
 use striae_law::friction::Friction;
 use striae_mesh::{NodeId, Vec3};
 use striae_solve::model::{
-    Actuation, ActuationKind, BodyId, Curve, Displacement, Freedom, Gravity, Increments, Load,
-    LoadExtent, LoadKind, Mover, NodalForce, Procedure, Release, RigidMotion, Step, Value,
+    Actuation, ActuationKind, Axes, BodyId, Curve, Displacement, Freedom, Gravity, Increments,
+    Load, LoadExtent, LoadKind, Mover, NodalForce, Procedure, Release, RigidMotion, Step, Value,
     Velocity,
 };
 
@@ -85,7 +85,7 @@ type Place = (String, String);
 #[derive(Clone, Debug)]
 pub struct StepBuilder {
     step: Step,
-    displacements: Vec<(Place, Components, Curve)>,
+    displacements: Vec<(Place, Axes, Components, Curve)>,
     releases: Vec<(Place, Released)>,
     loads: Vec<(Place, LoadKind<Value>, LoadExtent, Curve)>,
     forces: Vec<(Place, Spread, Curve)>,
@@ -193,7 +193,21 @@ impl StepBuilder {
 
     /// Takes a node set to a displacement from its reference positions.
     pub fn displace(
+        self,
+        body: impl Into<String>,
+        nodes: impl Into<String>,
+        components: impl Into<Components>,
+    ) -> Self {
+        self.displace_in(Axes::Global, body, nodes, components)
+    }
+
+    /// Takes a node set to a displacement from its reference positions with these components in
+    /// axes of its own, which stay as they are in the reference configuration. Components that
+    /// are `None` keep their state: with [`Axes::Normal`] and the first one alone nodes slide on
+    /// a plane.
+    pub fn displace_in(
         mut self,
+        axes: Axes,
         body: impl Into<String>,
         nodes: impl Into<String>,
         components: impl Into<Components>,
@@ -201,7 +215,7 @@ impl StepBuilder {
         let place = (body.into(), nodes.into());
         let components = components.into();
         let curve = usual_curve(components.move_on());
-        self.displacements.push((place, components, curve));
+        self.displacements.push((place, axes, components, curve));
         self.last = Last::Displacement;
         self
     }
@@ -211,7 +225,8 @@ impl StepBuilder {
         self.displace(body, nodes, [0.0; 3])
     }
 
-    /// Ends prescribed displacements of a node set in these components.
+    /// Ends prescribed displacements of a node set in these components, in whatever axes they were
+    /// stated.
     pub fn release(
         mut self,
         body: impl Into<String>,
@@ -404,7 +419,7 @@ impl StepBuilder {
     pub fn along(mut self, curve: Curve) -> Self {
         let of_last = match self.last {
             Last::Nothing | Last::Velocity => None,
-            Last::Displacement => self.displacements.last_mut().map(|(_, _, curve)| curve),
+            Last::Displacement => (self.displacements.last_mut()).map(|(_, _, _, curve)| curve),
             Last::Load => self.loads.last_mut().map(|(_, _, _, curve)| curve),
             Last::Force => self.forces.last_mut().map(|(_, _, curve)| curve),
             Last::Actuation => self.actuations.last_mut().map(|(_, _, _, curve)| curve),
@@ -427,13 +442,14 @@ impl StepBuilder {
     ) {
         resolved.step.displacements =
             resolved.all("displacements", &self.displacements, |index, of| {
-                let ((body, set), components, curve) = of;
+                let ((body, set), axes, components, curve) = of;
                 let path = path.clone().field("displacements").index(index);
                 let (body, nodes) = names.nodes(body, set, &path, faults)?;
                 Some(Displacement {
                     set: set.clone(),
                     body,
                     nodes,
+                    axes: *axes,
                     components: components.0.clone(),
                     curve: curve.clone(),
                 })

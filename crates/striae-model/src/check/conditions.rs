@@ -1,5 +1,7 @@
 //! Displacement conditions and their releases.
 
+mod directions;
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use striae_mesh::NodeId;
@@ -7,9 +9,10 @@ use striae_solve::model::{BodyId, Curve, Displacement, Release, Step, Value};
 
 use super::{Draft, DraftStep, Known, List};
 use crate::{fault::FaultKind, path::Path};
+use directions::{Directions, no_direction};
 
 /// Names of the components.
-const COMPONENTS: [char; 3] = ['x', 'y', 'z'];
+pub(super) const COMPONENTS: [char; 3] = ['x', 'y', 'z'];
 
 /// One component of one node of a body.
 type Freedom = (BodyId, NodeId, usize);
@@ -17,15 +20,17 @@ type Freedom = (BodyId, NodeId, usize);
 /// Components that are prescribed after the steps so far.
 pub(super) struct History {
     prescribed: BTreeSet<Freedom>,
+    directions: Directions,
     known: Known,
 }
 
 impl History {
     /// Nothing is prescribed before the first step.
-    pub(super) fn new(known: Known) -> Self {
+    pub(super) fn new(draft: &Draft<'_>) -> Self {
         Self {
             prescribed: BTreeSet::new(),
-            known,
+            directions: Directions::new(draft),
+            known: draft.known,
         }
     }
 }
@@ -75,6 +80,7 @@ pub(super) fn releases(
                 history.prescribed.remove(&(*body, node, component));
             }
         }
+        history.directions.release(release);
     }
 }
 
@@ -110,11 +116,17 @@ pub(super) fn displacements(
             };
             faults.push(path, kind);
             known = Known::InPart;
+        } else if let Some(kind) = no_direction(draft, condition) {
+            faults.push(path, kind);
+            known = Known::InPart;
         } else if let Some(kind) = state(draft, step, condition, &mut stated) {
+            faults.push(path, kind);
+        } else if let Some(kind) = history.directions.state(draft, step, condition) {
             faults.push(path, kind);
         }
     }
     history.prescribed.extend(stated.into_keys());
+    history.directions.end_of_step();
     if known == Known::InPart {
         history.known = Known::InPart;
     }
@@ -132,6 +144,9 @@ fn state<'s>(
     let (body, set, curve) = (condition.body, &condition.set, &condition.curve);
     for (component, target) in condition.components.iter().enumerate() {
         let Some(target) = target else { continue };
+        if !condition.axes.are_global() {
+            continue;
+        }
         for &node in &condition.nodes {
             let freedom = (body, node, component);
             let statement = || Statement { set, target, curve };

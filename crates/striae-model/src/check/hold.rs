@@ -1,10 +1,13 @@
 //! Restraint of bodies: displacement conditions must stop all six rigid motions of a body that is
 //! in no contact pair and not tied, in every step without inertia, see [`RigidMotions`].
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 use striae_mesh::{Mesh, NodeId, Vec3};
-use striae_solve::model::{BodyId, ContactSurface, Procedure, Step};
+use striae_solve::{
+    axes::{NodeFrame, are_parallel},
+    model::{BodyId, ContactSurface, Procedure, Step},
+};
 
 use super::{Draft, List};
 use crate::{fault::FaultKind, motions::RigidMotions, path::Path};
@@ -20,9 +23,9 @@ pub(super) fn check(draft: &Draft<'_>, faults: &mut List) {
         else {
             continue;
         };
-        let mut prescribed = BTreeSet::new();
+        let mut prescribed = Held::new();
         for (index, step) in draft.steps.iter().map(|of| of.step).enumerate() {
-            prescribe(&mut prescribed, step, body);
+            prescribe(&mut prescribed, step, (body, mesh));
             if step.procedure != Procedure::QuasiStatic {
                 continue;
             }
@@ -56,27 +59,46 @@ fn touches(draft: &Draft<'_>, body: BodyId) -> bool {
     pairs.any(|pair| !pair.is_within_a_body() && (is(&pair.a) || is(&pair.b)))
 }
 
-pub(super) fn prescribe(prescribed: &mut BTreeSet<(NodeId, usize)>, step: &Step, body: BodyId) {
+/// Directions along which nodes of a body are prescribed, with the components that they are in
+/// the axes in which they were stated.
+pub(super) type Held = BTreeMap<NodeId, Vec<(usize, Vec3)>>;
+
+/// Takes the releases of a step, then its displacements, into account.
+pub(super) fn prescribe(held: &mut Held, step: &Step, (body, mesh): (BodyId, &Mesh)) {
     for release in step.releases.iter().filter(|release| release.body == body) {
-        prescribed.retain(|(node, component)| {
-            !(release.components[*component] && release.nodes.contains(node))
-        });
+        for node in &release.nodes {
+            if let Some(of_node) = held.get_mut(node) {
+                of_node.retain(|(component, _)| !release.components[*component]);
+            }
+        }
     }
-    for condition in step
-        .displacements
-        .iter()
-        .filter(|condition| condition.body == body)
-    {
-        for component in (0..3).filter(|component| condition.components[*component].is_some()) {
-            prescribed.extend(condition.nodes.iter().map(|node| (*node, component)));
+    for condition in step.displacements.iter().filter(|of| of.body == body) {
+        for node in &condition.nodes {
+            let directions = condition.axes.directions(&mesh.positions[node.index()]);
+            let of_node = held.entry(*node).or_default();
+            for (component, direction) in directions.into_iter().enumerate() {
+                if let (Some(direction), Some(_)) = (direction, &condition.components[component]) {
+                    of_node.retain(|(_, other)| !are_parallel(other, &direction));
+                    of_node.push((component, direction));
+                }
+            }
         }
     }
 }
 
-fn free_motions(mesh: &Mesh, prescribed: &BTreeSet<(NodeId, usize)>) -> usize {
+/// Part of a vector that nothing holds at a node.
+pub(super) fn left(held: &[(usize, Vec3)], vector: &Vec3) -> Vec3 {
+    let directions: Vec<Vec3> = held.iter().map(|(_, direction)| *direction).collect();
+    let frame = NodeFrame::new(&directions);
+    frame.map_or(*vector, |frame| frame.free() * vector)
+}
+
+fn free_motions(mesh: &Mesh, held: &Held) -> usize {
     let mut motions = RigidMotions::of(mesh);
-    for (node, component) in prescribed {
-        motions.stop(&mesh.positions[node.index()], &Vec3::ith(*component, 1.0));
+    for (node, of_node) in held {
+        for (_, direction) in of_node {
+            motions.stop(&mesh.positions[node.index()], direction);
+        }
     }
     motions.left()
 }

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use striae_mesh::{Face, Mesh, NodeId, Vec3};
+use striae_mesh::{Face, Mesh, NodeId};
 use striae_solve::model::{BodyId, ContactSurface, Procedure};
 
 use super::{Draft, List, hold};
@@ -36,16 +36,18 @@ fn of_piece(
     faults: &mut List,
 ) {
     let place = |node: NodeId| &mesh.positions[node.index()];
-    let mut prescribed = BTreeSet::new();
+    let mut prescribed = hold::Held::new();
     for (index, step) in draft.steps.iter().map(|of| of.step).enumerate() {
-        hold::prescribe(&mut prescribed, step, body);
+        hold::prescribe(&mut prescribed, step, (body, mesh));
         if step.procedure != Procedure::QuasiStatic {
             continue;
         }
         let mut motions = RigidMotions::around(piece.iter().map(|node| place(*node)));
         let own = |node: &NodeId| piece.binary_search(node).is_ok();
-        for (node, component) in prescribed.iter().filter(|(node, _)| own(node)) {
-            motions.stop(place(*node), &Vec3::ith(*component, 1.0));
+        for (node, of_node) in prescribed.iter().filter(|(node, _)| own(node)) {
+            for (_, direction) in of_node {
+                motions.stop(place(*node), direction);
+            }
         }
         if motions.left() == 0 {
             continue;

@@ -1,12 +1,13 @@
 //! Pairs both of whose surfaces are prescribed along their normals: nothing is left for
 //! contact to decide.
 
-use std::collections::BTreeSet;
-
 use striae_mesh::{Face, Mesh, NodeId};
 use striae_solve::model::{BodyId, ContactSurface, Pair};
 
-use super::{Draft, List, Positions, hold};
+use super::{
+    Draft, List, Positions,
+    hold::{self, Held},
+};
 use crate::{fault::FaultKind, path::Path};
 
 /// Component of a normal that counts as zero.
@@ -19,14 +20,16 @@ pub(super) fn check(
     partial: &Positions,
     faults: &mut List,
 ) {
-    let mut prescribed: Vec<BTreeSet<(NodeId, usize)>> = vec![BTreeSet::new(); draft.bodies.len()];
+    let mut prescribed = vec![Held::new(); draft.bodies.len()];
     let mut known = Positions::new();
     for (index, of) in draft.steps.iter().enumerate() {
         if partial.contains(&index) {
             return;
         }
         for (body, prescribed) in prescribed.iter_mut().enumerate() {
-            hold::prescribe(prescribed, of.step, BodyId(body));
+            if let Some(mesh) = draft.bodies[body].mesh {
+                hold::prescribe(prescribed, of.step, (BodyId(body), mesh));
+            }
         }
         for (number, named) in draft.pairs.iter().enumerate() {
             let pair = named.pair.filter(|_| !impossible.contains(&number));
@@ -44,7 +47,7 @@ pub(super) fn check(
     }
 }
 
-fn both(draft: &Draft<'_>, pair: &Pair, prescribed: &[BTreeSet<(NodeId, usize)>]) -> bool {
+fn both(draft: &Draft<'_>, pair: &Pair, prescribed: &[Held]) -> bool {
     pair.surfaces().into_iter().all(|side| match side {
         ContactSurface::Deformable { body, faces } => {
             let mesh = draft.bodies[body.0].mesh;
@@ -55,12 +58,14 @@ fn both(draft: &Draft<'_>, pair: &Pair, prescribed: &[BTreeSet<(NodeId, usize)>]
 }
 
 /// True where all nodes of all faces are prescribed along the normals of the faces.
-fn all(mesh: &Mesh, faces: &[Face], prescribed: &BTreeSet<(NodeId, usize)>) -> bool {
+fn all(mesh: &Mesh, faces: &[Face], prescribed: &Held) -> bool {
     faces.iter().all(|face| {
         let normal = mesh.area_vector(*face).normalize();
-        let axes: Vec<usize> = (0..3).filter(|axis| normal[*axis].abs() > ACROSS).collect();
         let nodes = mesh.face_nodes(*face);
-        let held = |node: &NodeId| axes.iter().all(|axis| prescribed.contains(&(*node, *axis)));
+        let held = |node: &NodeId| {
+            let of_node = prescribed.get(node);
+            of_node.is_some_and(|held| hold::left(held, &normal).amax() <= ACROSS)
+        };
         nodes.iter().all(held)
     })
 }

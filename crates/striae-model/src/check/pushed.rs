@@ -11,8 +11,6 @@
 //!
 //! With friction, forces lie in a cone about `d`: a block stands on a rough slope.
 
-use std::collections::BTreeSet;
-
 use striae_mesh::{Face, Mesh, NodeId, Vec3};
 use striae_solve::model::{
     BodyId, ContactSurface, Freedom, LoadExtent, LoadKind, NodalForce, Pair, Procedure, RigidId,
@@ -113,17 +111,16 @@ fn of_body(draft: &Draft<'_>, step: &Step, body: BodyId, faults: &mut List) {
     else {
         return;
     };
-    let mut prescribed = BTreeSet::new();
-    hold::prescribe(&mut prescribed, step, body);
+    let mut prescribed = hold::Held::new();
+    hold::prescribe(&mut prescribed, step, (body, mesh));
     let pieces = mesh.pieces();
     for piece in &pieces {
         let own = |face: &Face| piece.binary_search(&mesh.face_nodes(*face)[0]).is_ok();
         let contact = contact_of(draft, body, mesh, &own);
         let held = |axis: usize| {
-            let mut own = prescribed
-                .iter()
-                .filter(|(_, component)| *component == axis);
-            own.any(|(node, _)| piece.binary_search(node).is_ok())
+            let along = |(_, e): &(usize, Vec3)| e[axis].abs() > ACROSS;
+            let mut held = prescribed.iter().filter(|(_, held)| held.iter().any(along));
+            held.any(|(node, _)| piece.binary_search(node).is_ok())
         };
         let part = piece.len() as f64 / mesh.positions.len() as f64;
         let force = force(draft, step, (body, mesh), piece, (&own, part));

@@ -8,7 +8,7 @@ use crate::{fault::FaultKind, path::Path};
 /// Notes faults within steps; returns those that are not whole.
 pub(super) fn check(draft: &Draft<'_>, impossible: &Positions, faults: &mut List) -> Positions {
     let mut partial = Positions::new();
-    let mut history = conditions::History::new(draft.known);
+    let mut history = conditions::History::new(draft);
     let mut time = 0.0;
     let mut reached = actuations::Reached::default();
     for (index, of) in draft.steps.iter().enumerate() {

@@ -19,6 +19,7 @@ Quantities are in one consistent system of units of your choice, for instance m,
 docstrings say what each is. Angles are in degrees. Nodes count from 0.
 """
 
+from ._axes import CylindricalAxes, NormalAxis
 from ._body import Body, BodySet
 from ._course import Course
 from ._errors import (
@@ -92,6 +93,7 @@ __all__ = [
     "Condition",
     "Coulomb",
     "Course",
+    "CylindricalAxes",
     "Dynamics",
     "ElasticPlastic",
     "Energies",
@@ -118,6 +120,7 @@ __all__ = [
     "MooneyRivlin",
     "NeoHookean",
     "Nodal",
+    "NormalAxis",
     "Ogden",
     "OwnFriction",
     "OwnMaterial",

@@ -8,6 +8,7 @@ from typing import Any, Literal, Optional, Union
 
 from . import _check as check
 from . import _striae as native
+from ._axes import Axes, vectors_of
 from ._check import Curve, Members, Motion, Varying, VaryingVector, Vector
 from ._errors import refuse
 from ._material import Material
@@ -45,6 +46,7 @@ class BodySet:
         y: Optional[Motion] = None,
         z: Optional[Motion] = None,
         curve: Optional[Curve] = None,
+        axes: Optional[Axes] = None,
     ) -> Condition:
         """Moves the nodes to a displacement from their positions at rest.
 
@@ -55,6 +57,9 @@ class BodySet:
             fractions when the condition is made. A component that is left out stays as it is.
         curve: how the targets are approached: ``ramp`` where nothing is said, but texts with
             ``t`` are followed. It has no effect on Python's functions.
+        axes: axes of ``x``, ``y`` and ``z``: the first one and a vector that determines the second
+            one, a :class:`NormalAxis` or :class:`CylindricalAxes`; those of the model by default.
+            They stay as they are at rest, and Python's functions have none but those of the model.
         """
         given = [(axis, value) for axis, value in enumerate((x, y, z)) if value is not None]
         if not given:
@@ -62,6 +67,8 @@ class BodySet:
         targets: list[Optional[Varying]] = [None, None, None]
         motions = []
         for axis, value in given:
+            if callable(value) and axes is not None:
+                raise refuse("xyz"[axis], "in axes of its own a text is needed as a function")
             if callable(value):
                 motions.append((axis, *check.motion(value, "xyz"[axis])))
             else:
@@ -69,11 +76,11 @@ class BodySet:
         along = check.curve_of(curve, "curve", *targets)
         if curve not in (None, "ramp") and all(target is None for target in targets):
             raise refuse("curve", "components given as functions take no curve")
-        body, name = self.body.name, self.name
+        body, name, within = self.body.name, self.name, vectors_of(axes, "axes")
 
         def apply(step: native.Step) -> None:
             if any(target is not None for target in targets):
-                step.displace(body, name, targets, along)
+                step.displace(body, name, within, targets, along)
             for axis, ends, points in motions:
                 step.lead(body, name, axis, ends, points)
 
@@ -86,7 +93,8 @@ class BodySet:
     def release(self, *components: Literal["x", "y", "z"]) -> Condition:
         """Ends prescribed displacements of the nodes.
 
-        components: components that become free; all prescribed ones by default.
+        components: components that become free, in whatever axes they were stated; all prescribed
+            ones by default.
         """
         axes = ["x", "y", "z"]
         chosen = [axes.index(check.word(one, axes, "components")) for one in components]

@@ -256,7 +256,12 @@ class Step:
     def sizes(self, initial: float, smallest: float, largest: float) -> None: ...
     def dynamic(self, spectral_radius: float) -> None: ...
     def displace(
-        self, body: str, nodes: str, components: list[Optional[_Varying]], along: _Along
+        self,
+        body: str,
+        nodes: str,
+        axes: tuple[str, list[list[float]]],
+        components: list[Optional[_Varying]],
+        along: _Along,
     ) -> None: ...
     def lead(
         self,

@@ -1,8 +1,8 @@
 //! All terms of a pair in the system.
 //!
-//! If nothing is tied and no moving body reacts to contact, a term is a dense block whose rows and
-//! columns are unknowns of the system. All other terms are made into blocks one by one, with ties
-//! eliminated. The contribution of contact to the tangent is the sum of all blocks.
+//! If nothing is tied, no node has axes of its own and no moving body reacts to contact, a term is a
+//! dense block whose rows and columns are unknowns of the system. All other terms are made into
+//! blocks one by one, with ties eliminated. The contribution of contact to the tangent is the sum of all blocks.
 
 use rayon::prelude::*;
 use striae_condensed::{Growth, Partition};
@@ -73,8 +73,8 @@ impl System<'_> {
     fn is_plain(&self, pair: usize) -> bool {
         let rigid = self.context.problem.pairs[pair].rigid;
         let moves = rigid.is_some_and(|rigid| self.moving[rigid].is_some());
-        let follows = || self.triples[pair].iter().flatten().any(|t| t.follows);
-        self.ties.is_empty() && !moves && self.opposite_body(pair).is_none() && !follows()
+        let is_bound = || self.triples[pair].iter().flatten().any(|t| t.is_bound);
+        self.ties.is_empty() && !moves && self.opposite_body(pair).is_none() && !is_bound()
     }
 
     /// Finds which rows of contact this rank adds to the tangent: where unknowns are those of the

@@ -1,6 +1,7 @@
 //! Data that stay constant within a step, and values imposed in it.
 
 mod dashpots;
+mod turned;
 
 use striae_contact::{
     complementarity::Prescribed, configuration::Configuration, pair::ContactPair, seating::Fitted,
@@ -23,6 +24,7 @@ use crate::{
     state::State,
 };
 use dashpots::{coefficient, dashpots};
+use turned::Turned;
 
 /// Data that stay constant within a step.
 #[derive(Clone, Debug)]
@@ -37,8 +39,11 @@ pub struct StepContext<'a> {
     pub start: &'a State,
     /// Pairs with the distances in which the step looks for contact.
     pub pairs: Vec<ContactPair>,
-    /// `true` for prescribed position components, of each global node.
+    /// `true` for prescribed position components, of each global node; along the axes of its own
+    /// of a node that has some.
     pub fixed: Vec<bool>,
+    /// Nodes that are prescribed along other directions than the coordinate axes.
+    pub(crate) turned: Turned<'a>,
     /// `true` for prescribed coordinates, of each rigid body.
     pub fixed_rigid: Vec<[bool; 6]>,
     /// `fixed` by pair, side and surface node, with nodes that follow only such nodes, or nodes
@@ -54,7 +59,8 @@ pub struct StepContext<'a> {
 /// Values imposed at the end of an increment.
 #[derive(Clone, Debug)]
 pub struct Imposed {
-    /// Prescribed position components: `(node, axis, position)`.
+    /// Prescribed position components: `(node, axis, position)`, along axes of its own of a node
+    /// that has some.
     pub positions: Vec<(GlobalNode, usize, f64)>,
     /// Loads with their kinds at this point.
     pub loads: Vec<LoadKind<Value>>,
@@ -100,11 +106,16 @@ impl<'a> StepContext<'a> {
         for (body, node, axis) in plan.displacements.keys() {
             fixed[3 * (problem.first_node[*body] + node) + axis] = true;
         }
+        let turned = Turned::new(problem, plan);
+        turned.fix(&mut fixed);
         let holds = |node: GlobalNode, axis: usize| match problem.ties.followed(node, axis) {
-            Some(followed) => followed.iter().all(|(node, _)| fixed[node.component(axis)]),
+            Some(followed) => followed.iter().all(|(node, _)| match turned.frame(*node) {
+                Some(frame) => frame.held() == 3,
+                None => fixed[node.component(axis)],
+            }),
             None => fixed[node.component(axis)],
         };
-        let on_pair = |pair: usize| {
+        let components = |pair: usize| {
             Side::BOTH.map(|side| {
                 let surface = problem.pairs[pair].contact.sides[side].surface();
                 let count = surface.map_or(0, |surface| surface.nodes().len());
@@ -118,6 +129,10 @@ impl<'a> StepContext<'a> {
                     .flatten()
                     .collect()
             })
+        };
+        let on_pair = |pair: usize| Prescribed {
+            components: components(pair),
+            axes: Side::BOTH.map(|side| turned.on_side(problem, pair, side)),
         };
         let pairs = problem.pairs.iter().map(|pair| pair.contact.clone());
         let mut context = Self {
@@ -137,6 +152,7 @@ impl<'a> StepContext<'a> {
                 .map(|coordinates| coordinates.each_ref().map(Option::is_some))
                 .collect(),
             fixed,
+            turned,
         };
         let stated = problem
             .model
@@ -197,6 +213,10 @@ impl<'a> StepContext<'a> {
         let prescribed = self.plan.displacements.iter();
         let prescribed = prescribed.map(|((body, node, axis), how)| {
             let node = self.problem.node(*body, NodeId::new(*node));
+            (node, axis, how)
+        });
+        let prescribed = prescribed.filter(|(node, ..)| self.turned.frame(*node).is_none());
+        let prescribed = prescribed.map(|(node, axis, how)| {
             let reference = &self.problem.reference[node];
             let ends = [reference[*axis], self.start.positions[node][*axis]];
             (node, *axis, reference, ends, how)
@@ -209,12 +229,14 @@ impl<'a> StepContext<'a> {
             ImposedRate {
                 node,
                 axis,
+                direction: None,
                 velocity: first / moment.duration,
                 acceleration: second / (moment.duration * moment.duration),
             }
         });
+        let (of_turned, their_rates) = self.turned.imposed(self.problem, self.start, moment);
         Imposed {
-            positions: positions.collect(),
+            positions: positions.chain(of_turned).collect(),
             loads: self.plan.loads.iter().map(|load| load.at(moment)).collect(),
             forces: self.forces(moment),
             actuations: self.plan.actuations(&self.problem.model.bodies, s),
@@ -222,7 +244,7 @@ impl<'a> StepContext<'a> {
             driving: self.driving(s),
             before: self.start.rigid.clone(),
             gravity: self.plan.gravity.at(moment),
-            rates: rates.collect(),
+            rates: rates.chain(their_rates).collect(),
             elapsed: f64::INFINITY,
             motion: None,
             dashpots: Vec::new(),

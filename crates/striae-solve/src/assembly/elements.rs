@@ -1,6 +1,7 @@
 //! Elements in the system, batch by batch: responses of one on all threads, while those of
 //! the one before are added by the owners of the rows, in the order of the mesh, so that sums
-//! do not depend on the number of threads. A batch with tied nodes is added by one thread.
+//! do not depend on the number of threads. A batch with tied nodes, or such that are prescribed
+//! in axes of their own, is added by one thread.
 
 use rayon::prelude::*;
 use std::{ops::Range, sync::Arc};
@@ -177,17 +178,19 @@ impl System<'_> {
         Ok(())
     }
 
-    /// Returns whether an element of a block has a place and no tied nodes.
+    /// Returns whether an element of a block has a place and no tied or turned nodes.
     fn is_plain_element(&self, place: &Place, at: usize) -> bool {
         let problem = self.context.problem;
         let element = ElementId::new(place.first + at);
         let corners = problem.model.bodies[place.body].mesh.corners(element);
         let is_bound = |node: &NodeId| self.is_bound(problem.node(place.body, *node));
-        let any = !self.ties.is_empty() || problem.ties.joins(place.body);
+        let any = !self.ties.is_empty()
+            || problem.ties.joins(place.body)
+            || !self.context.turned.is_empty();
         place.places.has_place(at) && !(any && corners.iter().any(is_bound))
     }
 
-    /// Adds an element, which may have tied nodes.
+    /// Adds an element, which may have tied or turned nodes.
     fn add_element(
         &mut self,
         place: &Place,
@@ -328,7 +331,7 @@ fn shares_of(
             let driven = SectionActuation::drive(actuation, material, past.variables);
             block.respond(at, &x[..nodes.len()], &driven, past, response)?;
             let mass = problem.masses[body].of_element(element);
-            inertia.weigh(nodes, mass, &context.fixed, share);
+            inertia.weigh(nodes, mass, context, share);
             Ok(())
         })
         .collect()

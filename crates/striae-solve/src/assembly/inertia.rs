@@ -12,7 +12,7 @@
 use striae_element::ElementResponse;
 use striae_mesh::{MAX_CORNERS, Vec3};
 
-use super::{Imposed, System, Trial};
+use super::{Imposed, StepContext, System, Trial};
 use crate::{node::GlobalNode, tie::Ties};
 
 /// Data of the increment that elements need.
@@ -72,13 +72,13 @@ impl Share {
 }
 
 impl Inertia {
-    /// Weighs the response of an element at some nodes, whose components are `fixed` or
-    /// not, and adds its mass and weight; `mass` is empty where it has none.
+    /// Weighs the response of an element at some nodes, and adds its mass and weight; `mass` is
+    /// empty where it has none.
     pub(super) fn weigh(
         &self,
         nodes: &[GlobalNode],
         mass: &[f64],
-        fixed: &[bool],
+        context: &StepContext,
         own: &mut Share,
     ) {
         let share = self.share_of_end;
@@ -93,7 +93,7 @@ impl Inertia {
         if !mass.is_empty() {
             self.add_forces(nodes, mass, own);
             if self.stiffness > 0.0 {
-                self.add_mass(nodes, mass, fixed, &mut own.response);
+                self.add_mass(nodes, mass, context, &mut own.response);
             }
         } else if self.acts() {
             own.weight.fill(Vec3::zeros());
@@ -128,12 +128,20 @@ impl Inertia {
         &self,
         nodes: &[GlobalNode],
         mass: &[f64],
-        fixed: &[bool],
+        context: &StepContext,
         response: &mut ElementResponse,
     ) {
         for b in 0..nodes.len() {
+            if let Some(frame) = context.turned.frame(nodes[b]) {
+                let free = frame.free() * self.stiffness;
+                for a in 0..nodes.len() {
+                    let block = free * mass[a * nodes.len() + b];
+                    response.stiffness.add_between(a, b, &block.into());
+                }
+                continue;
+            }
             for axis in 0..3 {
-                if fixed[nodes[b].component(axis)] {
+                if context.fixed[nodes[b].component(axis)] {
                     continue;
                 }
                 for a in 0..nodes.len() {

@@ -19,7 +19,7 @@ use striae_mesh::Vec3;
 use striae_sparse::PlacedBlock;
 
 use super::{Setting, System, Trial, configurations, contacts::contacts};
-use crate::{layout::Layout, norms::Norms, outcome::CutBack};
+use crate::{layout::Layout, node::GlobalNode, norms::Norms, outcome::CutBack};
 
 /// All but contact at a trial state.
 #[derive(Clone, Debug, Default)]
@@ -85,6 +85,7 @@ pub fn assemble_contact(
     tangent.contact = rows;
     system.pass_on();
     let norms = system.norms(trial, &contacts);
+    system.turn_rows();
     system.idle(selections);
     system.prescribe(trial, imposed);
     Ok(Some(ContactAssembled {
@@ -113,15 +114,23 @@ impl System<'_> {
         partition: &Partition,
     ) {
         self.is_linearised = true;
-        for row in partition
-            .kept()
-            .flat_map(|kept| partition.unknowns_of(kept))
-        {
+        let kept = partition.kept();
+        for row in kept.flat_map(|kept| partition.unknowns_of(kept)) {
             self.residual[row] = background.residual[row] + self.matrix.row_product(row, change);
         }
         self.blocks.clone_from(&background.blocks);
         for block in &self.blocks {
             block.add_product(change, &mut self.residual);
+        }
+        // Products are along the axes of the nodes, what they add to is not.
+        let (context, layout) = (self.context, self.layout);
+        let is_kept = |node: GlobalNode| partition.is_kept(layout.supervariable(node));
+        for (node, frame) in context.turned.frames().filter(|(node, _)| is_kept(*node)) {
+            let first = layout.position(node);
+            let of = |rows: &[f64]| Vec3::from_column_slice(&rows[first..first + 3]);
+            let found = of(&background.residual);
+            let product = frame.axes() * (of(&self.residual) - found);
+            self.residual[first..first + 3].copy_from_slice((found + product).as_slice());
         }
         self.square_of_forces = background.square_of_forces;
         self.forces.applied.clone_from(&background.applied);

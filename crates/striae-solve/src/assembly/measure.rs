@@ -24,9 +24,10 @@ impl System<'_> {
             }
             let first = self.layout.position(node);
             self.forces.reaction[node] = Vec3::from_column_slice(&self.residual[first..first + 3]);
+            let rows = self.context.components(node, &self.forces.reaction[node]);
             for axis in (0..3).filter(|_| share.owns(node)) {
                 if !self.context.fixed[node.component(axis)] {
-                    free += self.residual[first + axis].powi(2);
+                    free += rows[axis].powi(2);
                 }
             }
         }

@@ -1,4 +1,5 @@
-//! Blocks in the two parts of the tangent, with ties eliminated, see [`super::ties`].
+//! Blocks in the two parts of the tangent, with ties eliminated, see [`super::ties`], and along the
+//! axes of nodes that have their own, see [`crate::axes`].
 
 use std::{borrow::Cow, ops::Range};
 use striae_contact::segment::Derivatives;
@@ -176,7 +177,8 @@ impl System<'_> {
         entries
     }
 
-    /// Unknowns that a position without dependence on other nodes stands for, times a weight.
+    /// Unknowns that a position without dependence on other nodes stands for, times a weight: the
+    /// components along its axes of a node that has its own.
     fn of_position(
         &self,
         (node, axis): (GlobalNode, usize),
@@ -184,6 +186,17 @@ impl System<'_> {
         weight: f64,
         entries: &mut Vec<(usize, f64)>,
     ) {
+        if let Some(frame) = self.context.turned.frame(node) {
+            let first = self.layout.position(node);
+            for own in 0..3 {
+                let along = frame.axes()[(axis, own)];
+                let is_held = kind == Kind::Row && self.context.fixed[node.component(own)];
+                if along != 0.0 && !is_held {
+                    entries.push((first + own, weight * along));
+                }
+            }
+            return;
+        }
         match self.tie(node) {
             Some(tie) => entries.extend(self.followed_tie(tie, axis, kind, weight)),
             None if kind == Kind::Row && self.context.fixed[node.component(axis)] => {}

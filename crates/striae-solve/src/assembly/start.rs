@@ -52,6 +52,7 @@ pub(crate) fn initial_accelerations(
     system.masses();
     system.pass_on();
     system.condense_forces(imposed);
+    system.turn_rows();
     system.hold_the_rest();
     let System { residual, ties, .. } = system;
     let correction = solve(tangent, &residual)?;
@@ -60,7 +61,10 @@ pub(crate) fn initial_accelerations(
             Some(tie) => tie.followed_by(&correction),
             None => {
                 let first = layout.position(node);
-                Vec3::from_column_slice(&correction[first..first + 3])
+                context.vector(
+                    node,
+                    &Vec3::from_column_slice(&correction[first..first + 3]),
+                )
             }
         };
     }
@@ -81,7 +85,7 @@ fn known(
     let problem = context.problem;
     let mut accelerations = vec![Vec3::zeros(); problem.reference.len()];
     for rate in &imposed.rates {
-        accelerations[rate.node][rate.axis] = rate.acceleration;
+        rate.put(&mut accelerations, rate.acceleration);
     }
     for (rigid, rates) in context.rigid_rates(0.0).iter().enumerate() {
         let pose = &trial.rigid[rigid];
@@ -115,8 +119,13 @@ impl System<'_> {
                 for (at, entry) in block.iter_mut().enumerate() {
                     let (row, column) = (at / count, at % count);
                     let (b, axis) = (column / 3, column % 3);
-                    if row % 3 == axis && !self.context.fixed[nodes[b].component(axis)] {
-                        *entry = mass[row / 3 * nodes.len() + b];
+                    let free = match self.context.turned.frame(nodes[b]) {
+                        Some(frame) => frame.free()[(row % 3, axis)],
+                        None if row % 3 != axis => 0.0,
+                        None => f64::from(u8::from(!self.context.fixed[nodes[b].component(axis)])),
+                    };
+                    if free != 0.0 {
+                        *entry = mass[row / 3 * nodes.len() + b] * free;
                     }
                 }
                 self.add_dense(&nodes, &unknowns, &vec![0.0; count], &block);

@@ -61,8 +61,8 @@ pub(super) struct Triple {
     pub(super) place: (Side, SurfaceNode),
     /// The node whose position it is.
     pub(super) position: Option<GlobalNode>,
-    /// `true` if that node depends on others.
-    pub(super) follows: bool,
+    /// `true` if that node depends on others, or has axes of its own.
+    pub(super) is_bound: bool,
     /// The rigid body that moves on the other side.
     against: Option<usize>,
 }
@@ -87,7 +87,10 @@ impl System<'_> {
                 first,
                 place,
                 position,
-                follows: position.is_some_and(|node| problem.ties.follower(node).is_some()),
+                is_bound: position.is_some_and(|node| {
+                    problem.ties.follower(node).is_some()
+                        || self.context.turned.frame(node).is_some()
+                }),
                 against: position.and(moving),
             })
         };
@@ -169,7 +172,10 @@ impl System<'_> {
 
     /// Returns whether a row is prescribed and no moving body reacts to it.
     fn is_left_out(&self, slot: &Slot) -> bool {
-        let fixed = |(node, axis): (GlobalNode, usize)| self.context.fixed[node.component(axis)];
+        let fixed = |(node, axis): (GlobalNode, usize)| {
+            // Rows of a node with axes of its own are left out once they are along these.
+            self.context.turned.frame(node).is_none() && self.context.fixed[node.component(axis)]
+        };
         slot.against.is_none() && slot.position.is_some_and(fixed)
     }
 

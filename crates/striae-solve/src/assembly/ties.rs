@@ -98,9 +98,11 @@ impl System<'_> {
         self.ties.get(node.0).and_then(Option::as_ref)
     }
 
-    /// Returns whether the position of a node is not an unknown of its own.
+    /// Returns whether the coordinates of a node are no unknowns of their own.
     pub(super) fn is_bound(&self, node: GlobalNode) -> bool {
-        self.tie(node).is_some() || self.context.problem.ties.follower(node).is_some()
+        self.tie(node).is_some()
+            || self.context.problem.ties.follower(node).is_some()
+            || self.context.turned.frame(node).is_some()
     }
 
     /// Turns the residuals of tied nodes into those of their bodies, with the tangent

@@ -93,7 +93,7 @@ fn driven(context: &StepContext, before: &State, after: &State) -> f64 {
     let problem = context.problem;
     let nodes = problem.own_nodes().map(|node| {
         let way = after.positions[node] - before.positions[node];
-        length(way, |axis| context.fixed[node.component(axis)])
+        context.prescribed_part(node, &way).norm()
     });
     let rigid = after
         .rigid

@@ -8,7 +8,7 @@ use striae_contact::initial::Fit;
 use striae_mesh::Vec3;
 
 use super::translation::nearest_approach;
-use crate::model::{BodyId, ContactSurface, Freedom, Model, PairId, Procedure, RigidId};
+use crate::model::{Axes, BodyId, ContactSurface, Freedom, Model, PairId, Procedure, RigidId};
 
 /// Relative excess over the initial distance that counts as round-off.
 const ROUND_OFF: f64 = 1e-9;
@@ -67,7 +67,12 @@ fn body_reach(model: &Model, body: BodyId) -> Option<f64> {
             let way = condition
                 .numbers()
                 .map(|component| component.unwrap_or(0.0).abs());
-            farthest = Some(farthest.unwrap_or(0.0).max(Vec3::from(way).norm()));
+            let way = match condition.axes {
+                Axes::Global => Vec3::from(way).norm(),
+                // Those along other axes at the same nodes may add to it.
+                _ => return None,
+            };
+            farthest = Some(farthest.unwrap_or(0.0).max(way));
         }
     }
     farthest

@@ -128,7 +128,7 @@ fn is_moved_otherwise(step: &Step, body: BodyId) -> bool {
         || step
             .displacements
             .iter()
-            .any(|of| of.body == body && of.varies())
+            .any(|of| of.body == body && (of.varies() || !of.axes.are_global()))
 }
 
 fn rigid_way(model: &Model, rigid: RigidId) -> Option<Ranges> {

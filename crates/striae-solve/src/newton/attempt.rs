@@ -327,8 +327,7 @@ impl Attempt<'_> {
         let norm = assembled.norms.largest();
         match (self.iterations.is_empty(), self.follows()) {
             (true, true) => {
-                let share = &self.context.problem.share;
-                let to_go = share_to_go(share, &self.trial, self.state, self.imposed);
+                let to_go = share_to_go(self.context, &self.trial, self.state, self.imposed);
                 // After an extrapolated start the residual can be small although prescribed nodes
                 // still have to move.
                 Some(norm.max(to_go))

@@ -9,8 +9,7 @@
 use striae_contact::{segment::Derivatives, unknowns::Status};
 
 use crate::{
-    assembly::{Assembled, Imposed, Trial},
-    share::Share,
+    assembly::{Assembled, Imposed, StepContext, Trial},
     state::State,
 };
 
@@ -61,16 +60,22 @@ impl Chord {
 
 /// Largest part of the way of a prescribed position that a trial state is away from it;
 /// collective.
-pub(super) fn share_to_go(share: &Share, trial: &Trial, state: &State, imposed: &Imposed) -> f64 {
+pub(super) fn share_to_go(
+    context: &StepContext,
+    trial: &Trial,
+    state: &State,
+    imposed: &Imposed,
+) -> f64 {
     let ways = imposed.positions.iter().map(|&(node, axis, end)| {
-        [&trial.positions, &state.positions].map(|x| (end - x[node][axis]).abs())
+        [&trial.positions, &state.positions]
+            .map(|x| (end - context.along(node, axis, &x[node])).abs())
     });
     let mut most = ways.fold([0.0; 2], |sum: [f64; 2], way| {
         // The largest, not the mean: one node that still has to move is enough to distrust the
         // residual.
         [0, 1].map(|at| sum[at].max(way[at]))
     });
-    share.team().largest(&mut most);
+    context.problem.share.team().largest(&mut most);
     let [left, whole] = most;
     if left > 0.0 {
         left / whole.max(left)

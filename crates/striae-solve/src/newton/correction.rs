@@ -76,7 +76,8 @@ pub(super) fn corrected(
     for (node, position) in problem.global_nodes().zip(&mut next.positions) {
         if problem.tie_of[node].is_none() {
             let first = layout.position(node);
-            *position += Vec3::from_column_slice(&correction[first..first + 3]) * factor;
+            let change = Vec3::from_column_slice(&correction[first..first + 3]);
+            *position += setting.context.vector(node, &change) * factor;
         }
     }
     next.place_tied(problem);

@@ -152,8 +152,7 @@ impl Ends<'_> {
                 - before.applied[node]
                 - before.contact[node]
                 - before.stabilisation[node];
-            let fixed = |axis: usize| f64::from(u8::from(self.context.fixed[node.component(axis)]));
-            let reaction = Vec3::from_fn(|axis, _| fixed(axis) * after.reaction[node][axis]);
+            let reaction = self.context.prescribed_part(node, &after.reaction[node]);
             self.held(found, reaction)
         });
         let driven = |rigid: usize| !self.context.problem.has_coordinates(rigid);
@@ -302,22 +301,29 @@ impl Ends<'_> {
         let (mut weighted, mut excess) = (vec![Vec3::zeros(); nodes], vec![Vec3::zeros(); nodes]);
         let (mut way, mut shift) = (weighted.clone(), weighted.clone());
         for node in (0..nodes).map(GlobalNode) {
+            let of = |vectors: &[Vec3]| self.context.components(node, &vectors[node]);
+            let [v_0, v_1] = [&state.velocities[..], self.velocities].map(of);
+            let [a_0, a_1] = [&state.accelerations[..], self.accelerations].map(of);
+            let moved = self.context.components(node, &self.displacement(node));
             for axis in 0..3 {
-                let of = |vectors: &[Vec3]| vectors[node][axis];
-                let [v_0, v_1] = [&state.velocities[..], self.velocities].map(of);
-                let [a_0, a_1] = [&state.accelerations[..], self.accelerations].map(of);
+                let [v_0, v_1, a_0, a_1] = [v_0, v_1, a_0, a_1].map(|vector| vector[axis]);
                 way[node][axis] = 0.5 * dt * (v_0 + v_1);
                 if self.context.fixed[node.component(axis)] {
                     let a = (1.0 - scheme.alpha_f) * a_1 + scheme.alpha_f * a_0;
                     weighted[node][axis] = a;
                     excess[node][axis] = a - (v_1 - v_0) / dt;
-                    shift[node][axis] = self.displacement(node)[axis] - way[node][axis];
+                    shift[node][axis] = moved[axis] - way[node][axis];
                 } else {
                     let jump = a_1 - a_0;
                     weighted[node][axis] = (1.0 - scheme.alpha_m) * a_1 + scheme.alpha_m * a_0;
                     excess[node][axis] = (0.5 - scheme.alpha_f) * jump;
                     shift[node][axis] = (scheme.beta - 0.5 * scheme.gamma) * dt * dt * jump;
                 }
+            }
+        }
+        for vectors in [&mut weighted, &mut excess, &mut way, &mut shift] {
+            for (node, frame) in self.context.turned.frames() {
+                vectors[node] = frame.axes() * vectors[node];
             }
         }
         let problem = self.context.problem;

@@ -83,7 +83,9 @@ fn furthest(before: &[Vec3], now: &[Vec3]) -> Option<(usize, f64)> {
 fn prescribed(setting: &Setting, trial: &Trial) -> f64 {
     let (imposed, state) = (setting.imposed, setting.state);
     let of_nodes = imposed.positions.iter();
-    let of_nodes = of_nodes.map(|&(node, axis, to)| (to - state.positions[node][axis]).abs());
+    let of_nodes = of_nodes.map(|&(node, axis, to)| {
+        (to - setting.context.along(node, axis, &state.positions[node])).abs()
+    });
     let of_bodies = trial.rigid.iter().zip(&imposed.before).zip(&imposed.rigid);
     let of_bodies = of_bodies.flat_map(|((now, before), given)| {
         let way = now.displacement - before.displacement;

@@ -150,7 +150,10 @@ fn restrict<'a>(
 ) {
     let has_friction = |pair: usize| !context.plan.frictions[pair].is_frictionless();
     let pairs = 0..selections.len();
-    let prescribed = || context.fixed_on_pair.iter().flatten().flatten();
+    let prescribed = || {
+        let pairs = context.fixed_on_pair.iter();
+        pairs.flat_map(|of| of.components.iter().flatten())
+    };
     if !pairs.clone().any(has_friction)
         // A single pair of free surfaces has as many positions as unknowns; nothing is contested.
         || selections.len() == 1 && !prescribed().any(|prescribed| *prescribed)
@@ -180,13 +183,15 @@ fn restrict<'a>(
 
 /// The nodes of a side; none of a rigid one.
 fn movers(context: &StepContext, pair: usize, side: Side) -> Vec<Mover> {
-    let prescribed = context.fixed_on_pair[pair][side].chunks(3).enumerate();
+    let of_pair = &context.fixed_on_pair[pair];
+    let prescribed = of_pair.components[side].chunks(3).enumerate();
     let mover = |(node, prescribed): (usize, &[bool])| {
         let node = SurfaceNode::new(node);
         let global = context.problem.surface_node(pair, side, node)?;
         Some(Mover {
             number: global.0 as u32,
             prescribed: [prescribed[0], prescribed[1], prescribed[2]],
+            axes: of_pair.axes[side].get(&node.index()).copied(),
         })
     };
     prescribed.filter_map(mover).collect()

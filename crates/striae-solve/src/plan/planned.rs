@@ -19,6 +19,27 @@ pub enum Prescription {
     },
 }
 
+/// Prescription of a displacement along a direction that may be no coordinate axis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Oblique {
+    /// Component in the axes in which it was stated.
+    pub component: usize,
+    /// Unit vector along it.
+    pub direction: Vec3,
+    /// The prescription.
+    pub how: Prescription,
+}
+
+impl Oblique {
+    /// The prescription in a later step that does not state it.
+    pub(super) fn held(&self) -> Self {
+        Self {
+            how: Prescription::Hold,
+            ..self.clone()
+        }
+    }
+}
+
 /// A load in a step.
 #[derive(Clone, Debug)]
 pub struct PlannedLoad {

@@ -127,6 +127,7 @@ fn local_step(step: &Step, numbers: &Numbers) -> Step {
         nodes: local_nodes(of.body, &of.nodes, numbers),
         set: of.set.clone(),
         body: of.body,
+        axes: of.axes,
         components: of.components.clone(),
         curve: of.curve.clone(),
     };

@@ -162,6 +162,9 @@ impl Bound {
         for condition in model.steps.iter().flat_map(|step| &step.displacements) {
             for node in &condition.nodes {
                 let first = 3 * (first_node[condition.body.0] + node.index());
+                if !condition.axes.are_global() {
+                    prescribed[first..first + 3].fill(true);
+                }
                 for axis in (0..3).filter(|&axis| condition.components[axis].is_some()) {
                     prescribed[first + axis] = true;
                 }

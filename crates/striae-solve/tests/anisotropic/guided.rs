@@ -16,7 +16,7 @@ use nalgebra::{Matrix3, Vector2};
 use striae_contact::unknowns::Status;
 use striae_mesh::{NodeId, Vec3};
 use striae_solve::{
-    model::{BodyId, Curve, Displacement, Model},
+    model::{Axes, BodyId, Curve, Displacement, Model},
     report,
 };
 
@@ -49,6 +49,7 @@ fn walls(model: &Model) -> Displacement {
     let top = model.nodes("block", "zmax");
     let nodes = (0..mesh.positions.len()).map(NodeId::new);
     Displacement {
+        axes: Axes::Global,
         set: "below".to_owned(),
         body: BodyId(0),
         nodes: nodes.filter(|node| !top.contains(node)).collect(),

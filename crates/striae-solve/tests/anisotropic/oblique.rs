@@ -19,7 +19,7 @@ use striae_law::{
 };
 use striae_mesh::{Vec3, generate::Block};
 use striae_solve::model::{
-    Curve, Displacement, Load, LoadExtent, LoadKind, Model, RigidShape, Step,
+    Axes, Curve, Displacement, Load, LoadExtent, LoadKind, Model, RigidShape, Step,
 };
 use striae_surface::texture::{Field, Lines, Paint};
 
@@ -221,6 +221,7 @@ impl Sliding {
             let x = mesh.positions[node.index()];
             let u = self.gradient * x + place.push(0.0) - x;
             Displacement {
+                axes: Axes::Global,
                 set: "top".to_owned(),
                 body: striae_solve::model::BodyId(0),
                 nodes: vec![node],

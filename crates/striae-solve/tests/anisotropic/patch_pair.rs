@@ -17,7 +17,7 @@ use striae_mesh::{
     Vec3,
     generate::Block,
 };
-use striae_solve::model::{BodyId, Curve, Displacement, LoadExtent, LoadKind, Model, Step};
+use striae_solve::model::{Axes, BodyId, Curve, Displacement, LoadExtent, LoadKind, Model, Step};
 
 const HEIGHT: f64 = 0.4;
 /// Distance that the upper body slides.
@@ -56,6 +56,7 @@ fn to(model: &Model, sliding: &Sliding, place: Vector2<f64>) -> Step {
             let x = body.mesh.positions[node.index()];
             let u = moved(sliding, at, &x, place) - x;
             step.displacements.push(Displacement {
+                axes: Axes::Global,
                 set: end.to_owned(),
                 body: BodyId(at),
                 nodes: vec![node],

@@ -6,7 +6,7 @@ use striae_law::friction::{
 };
 use striae_mesh::NodeId;
 use striae_solve::{
-    model::{BodyId, Curve, Displacement, LoadExtent, LoadKind, Model},
+    model::{Axes, BodyId, Curve, Displacement, LoadExtent, LoadKind, Model},
     outcome::Ending,
     report::pairs,
     state::State,
@@ -36,6 +36,7 @@ fn uniform(pressure: f64, speed: f64, friction: Friction) -> Model {
     let floor = plane([0.0; 3], [0.0, 0.0, 1.0]);
     model.touch_rigid(("block", "zmin"), floor, friction);
     let all = |[x, y]: [f64; 2]| Displacement {
+        axes: Axes::Global,
         set: "all".to_owned(),
         body: BodyId(0),
         nodes: (0..model.bodies[0].mesh.positions.len())

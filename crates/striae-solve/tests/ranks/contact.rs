@@ -4,7 +4,7 @@ use striae_contact::pair::Enforcement;
 use striae_law::bulk::{Hyperelastic, Isochoric, Material, Volumetric};
 use striae_law::friction::Friction;
 use striae_mesh::{CellKind, Vec3, generate::Block};
-use striae_solve::model::{Formulation, LoadExtent, LoadKind, Model};
+use striae_solve::model::{Axes, Formulation, LoadExtent, LoadKind, Model};
 use striae_surface::texture::{Field, Lines, Paint};
 
 use crate::{
@@ -98,6 +98,26 @@ fn textures_on_both_sides_and_elements_of_other_kinds() {
     };
     model.pairs[0].textures = [field(1.0, 0.2), field(0.3, -1.0)];
     assert_same(&model);
+}
+
+#[test]
+fn blocks_that_are_prescribed_in_axes_of_their_own() {
+    for mu in [0.3, 5.0] {
+        let mut model = two_blocks(mu);
+        let skew = Axes::Skew {
+            x: Vec3::new(1.0, 0.2, 0.1),
+            y: Vec3::new(0.0, 1.0, -0.1),
+        };
+        for step in &mut model.steps {
+            step.displacements.iter_mut().for_each(|of| of.axes = skew);
+        }
+        let mut side = model.hold("lower", "ymin", [Some(0.0), None, None]);
+        side.axes = Axes::Normal(Vec3::new(0.1, 1.0, 0.2));
+        let low = model.steps[0].displacements[0].nodes.clone();
+        side.nodes.retain(|node| !low.contains(node));
+        model.steps[0].displacements.push(side);
+        assert_same(&model);
+    }
 }
 
 #[test]

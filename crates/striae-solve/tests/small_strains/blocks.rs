@@ -9,7 +9,7 @@ use striae_mesh::{Vec3, generate::Block};
 use striae_solve::{
     drive::{Continue, Observer, Progress, run},
     model::{
-        Backend, Body, BodyId, ContactMass, ContactSurface, Curve, Displacement, Formulation,
+        Axes, Backend, Body, BodyId, ContactMass, ContactSurface, Curve, Displacement, Formulation,
         Increments, Initial, Model, Pair, Procedure, Solver, Step, Strategy,
     },
     newton::{Increment, IterationObserver},
@@ -150,6 +150,7 @@ pub fn model(case: &Case, depth: f64) -> Model {
         feature_angle: None,
     };
     let hold = |body: usize, set: &str, target: Vec3| Displacement {
+        axes: Axes::Global,
         set: set.to_owned(),
         body: BodyId(body),
         nodes: bodies[body]

@@ -20,13 +20,17 @@ enum Guided {
 }
 
 fn guides(pair: &PairFunction, guided: Guided) -> Prescribed {
-    pair.prescribed.each_ref().map(|of_side| {
+    let components = pair.prescribed.components.each_ref().map(|of_side| {
         let is_guided = |node: usize| guided == Guided::All || !node.is_multiple_of(4);
         let components = 0..of_side.len();
         components
             .map(|at| at % 3 != 0 && is_guided(at / 3))
             .collect()
-    })
+    });
+    Prescribed {
+        components,
+        ..Prescribed::default()
+    }
 }
 
 fn check(name: &str, model: Model, guided: Guided, places: impl Fn(&Problem) -> [Places; 2]) {
@@ -46,7 +50,7 @@ fn check(name: &str, model: Model, guided: Guided, places: impl Fn(&Problem) -> 
             .kept()
             .iter()
             .zip(pair.statuses(&u))
-            .filter(|(kept, _)| pair.prescribed[kept.side][3 * kept.node.index() + 1])
+            .filter(|(kept, _)| pair.prescribed.components[kept.side][3 * kept.node.index() + 1])
             .map(|(_, status)| status)
             .collect();
         for status in [Status::Stick, Status::Slip] {

@@ -70,10 +70,13 @@ impl<'a> PairFunction<'a> {
             let surface = context.pairs[0].sides[side].surface();
             surface.map_or(0, |s| if deformable { s.nodes().len() } else { 0 })
         });
+        let free = Prescribed {
+            components: counts.map(|count| vec![false; 3 * count]),
+            ..Prescribed::default()
+        };
         let selection = {
             let [from, to] = [&start, &now].map(|places| configuration(context, places));
             let kept = counts.map(|count| vec![false; count]);
-            let free = counts.map(|count| vec![false; 3 * count]);
             Selection::new(&from, Some(&to), &kept, &free)
         };
         let mut random = Random::new(3);
@@ -89,7 +92,7 @@ impl<'a> PairFunction<'a> {
             elapsed,
             tau_n,
             before: vec![Status::Slip; selection.kept().len()],
-            prescribed: counts.map(|count| vec![false; 3 * count]),
+            prescribed: free,
             selection,
             iteration: Iteration::LATER,
         }

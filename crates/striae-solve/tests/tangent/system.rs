@@ -8,8 +8,8 @@ use striae_mesh::{CellKind, Vec3};
 use striae_solve::{
     assembly::StepContext,
     model::{
-        Actuation, ActuationKind, BodyId, Curve, Formulation, Freedom, LoadExtent, LoadKind, Model,
-        RigidId, RigidMotion,
+        Actuation, ActuationKind, Axes, BodyId, Curve, Formulation, Freedom, LoadExtent, LoadKind,
+        Model, Procedure, RigidId, RigidMotion,
     },
     newton::{Workspace, advance},
     problem::Problem,
@@ -68,6 +68,39 @@ fn of_bodies_that_move_themselves_under_all_loads() {
         };
         model.steps[0].actuations = [0, 1].into_iter().flat_map(of_body).collect();
         assert_order(model);
+    }
+}
+
+#[test]
+fn of_nodes_that_are_prescribed_in_axes_of_their_own() {
+    let skew = Axes::Skew {
+        x: Vec3::new(1.0, 0.2, 0.3),
+        y: Vec3::new(0.0, 1.0, -0.4),
+    };
+    for friction in [Friction::frictionless(), coulomb(0.3)] {
+        let mut model = under_all_loads(two_blocks([2.0, 1.0], [2, 3], friction));
+        let step = &mut model.steps[0];
+        step.displacements[1].axes = skew;
+        let mut side = step.displacements[0].clone();
+        side.nodes = model.bodies[0].mesh.node_sets.get("xmin").unwrap().to_vec();
+        side.nodes
+            .retain(|node| model.bodies[0].mesh.positions[node.index()].z > 1e-9);
+        side.axes = Axes::Normal(Vec3::new(1.0, 0.3, -0.2));
+        side.components = [Some(0.005.into()), None, None];
+        step.displacements.push(side);
+        assert_order(model.clone());
+        // With inertia, half-way.
+        model.bodies.iter_mut().for_each(|body| body.density = 1.0);
+        model.steps[0].procedure = Procedure::Dynamic {
+            spectral_radius: 0.8,
+        };
+        model.steps[0].increments = increments(0.25, 1e-3);
+        let run = Run::of(model);
+        let context = StepContext::new(&run.problem, 0, &run.states[0]);
+        let [before, state] = [&run.states[1], &run.states[2]];
+        let mut whole = Whole::new(&context, before, state);
+        whole.imposed = context.imposed_after(before, state.time, state.time);
+        whole.assert_order();
     }
 }
 

@@ -52,6 +52,9 @@ impl<'a> Whole<'a> {
     fn trial(&self, u: &DVector<f64>) -> Trial {
         let mut trial = self.reference();
         self.each(&mut trial, |at, value| *value = u[at]);
+        for (node, x) in trial.positions.iter_mut().enumerate() {
+            *x = self.context.vector(GlobalNode(node), x);
+        }
         for (rigid, pose) in trial.rigid.iter_mut().enumerate() {
             if let Some(first) = self.layout.rigid(rigid) {
                 let coordinates = std::array::from_fn(|at| u[first + at]);
@@ -97,7 +100,11 @@ impl<'a> Whole<'a> {
 
     pub fn unknowns(&self) -> DVector<f64> {
         let mut u = DVector::zeros(self.layout.unknowns());
-        self.each(&mut self.reference(), |at, value| u[at] = *value);
+        let mut reference = self.reference();
+        for (node, x) in reference.positions.iter_mut().enumerate() {
+            *x = self.context.components(GlobalNode(node), x);
+        }
+        self.each(&mut reference, |at, value| u[at] = *value);
         for (rigid, pose) in self.state.rigid.iter().enumerate() {
             if let Some(first) = self.layout.rigid(rigid) {
                 u.rows_mut(first, 6).copy_from_slice(&pose.coordinates());

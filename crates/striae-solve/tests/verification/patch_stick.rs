@@ -9,7 +9,7 @@ use nalgebra::Matrix3;
 use striae_contact::unknowns::Status;
 use striae_law::bulk::Material;
 use striae_mesh::{CellKind, NodeId, Vec3};
-use striae_solve::model::{BodyId, Curve, Displacement, LoadExtent, LoadKind, Model, Step};
+use striae_solve::model::{Axes, BodyId, Curve, Displacement, LoadExtent, LoadKind, Model, Step};
 
 const SLOPES: [f64; 2] = [0.2, -0.1];
 
@@ -101,6 +101,7 @@ fn moved(model: &Model, body: usize, node: NodeId, f: &Matrix3<f64>) -> Displace
     let x = model.bodies[body].mesh.positions[node.index()];
     let u = f * x - x;
     Displacement {
+        axes: Axes::Global,
         set: "end".to_owned(),
         body: BodyId(body),
         nodes: vec![node],

@@ -11,7 +11,7 @@ use striae_mesh::{CellBlock, Face, Mesh, NodeId, Vec3, generate::Block};
 use striae_solve::{
     drive::{Continue, Observer, Progress, run},
     model::{
-        Backend, Body, BodyId, ContactMass, ContactSurface, Curve, Displacement, Formulation,
+        Axes, Backend, Body, BodyId, ContactMass, ContactSurface, Curve, Displacement, Formulation,
         Increments, Initial, Load, LoadExtent, LoadKind, Model, Pair, PairId, Procedure, RigidId,
         RigidShape, RigidSurface, Solver, Step, Strategy,
     },
@@ -355,6 +355,7 @@ impl Places for Model {
 
     fn hold(&self, body: &str, set: &str, components: [Option<f64>; 3]) -> Displacement {
         Displacement {
+            axes: Axes::Global,
             set: set.to_owned(),
             body: BodyId(self.body(body)),
             nodes: self.nodes(body, set),
@@ -365,6 +366,7 @@ impl Places for Model {
 
     fn pin(&self, body: &str, x: [f64; 3], components: [Option<f64>; 3]) -> Displacement {
         Displacement {
+            axes: Axes::Global,
             set: "pin".to_owned(),
             body: BodyId(self.body(body)),
             nodes: vec![self.node_at(body, x)],

@@ -13,7 +13,7 @@ use crate::scene::{Run, body, increments, model, step};
 use std::collections::HashMap;
 use striae_law::bulk::{Hardening, LameConstants, Material, Plastic};
 use striae_mesh::{CellBlock, CellKind, ElementId, Face, Mesh, NodeId, Vec3};
-use striae_solve::model::{BodyId, Curve, Displacement, Load, LoadExtent, LoadKind, Model};
+use striae_solve::model::{Axes, BodyId, Curve, Displacement, Load, LoadExtent, LoadKind, Model};
 use striae_verify::fitted_rate;
 
 const INNER: f64 = 1.0;
@@ -89,6 +89,7 @@ fn pressed(n: usize, c: f64) -> Model {
         let mut components = [None; 3];
         components[axis] = Some(0.0);
         Displacement {
+            axes: Axes::Global,
             set: "symmetry".to_owned(),
             body: BodyId(0),
             nodes: nodes.map(|(node, _)| NodeId::new(node)).collect(),

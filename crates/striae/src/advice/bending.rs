@@ -164,10 +164,9 @@ fn is_pushed(model: &Model, body: BodyId, axis: &Vec3) -> bool {
                 let along = |(force, e): (&Value, &f64)| force.number() != Some(0.0) && *e != 0.0;
                 of.force.iter().zip(axis.iter()).any(along)
             })
-            || moves.into_iter().any(|of| {
-                let target = of.numbers().map(|component| component.unwrap_or(0.0));
-                of.varies() || Vec3::from(target).dot(axis) != 0.0
-            })
+            || moves
+                .into_iter()
+                .any(|of| of.varies() || of.way(mesh).dot(axis) != 0.0)
     };
     let touches = |side: &ContactSurface| matches!(side, ContactSurface::Deformable { body: of, faces } if *of == body && across(faces));
     let mut pairs = model.pairs.iter();
@@ -202,9 +201,18 @@ fn is_supported(model: &Model, fits: &[Option<Fit>], body: BodyId, frame: &Frame
 fn held_nodes(model: &Model, body: BodyId, axis: &Vec3) -> BTreeSet<NodeId> {
     let conditions = model.steps.iter().flat_map(|step| &step.displacements);
     let conditions = conditions.filter(|of| of.body == body);
+    let mesh = &model.bodies[body.0].mesh;
     let held = conditions.filter(|of| {
-        let mut axes = (0..3).filter(|&at| axis[at].abs() > 0.1);
-        axes.all(|at| of.components[at].is_some())
+        let Some(first) = of.nodes.first() else {
+            return false;
+        };
+        let directions = of.axes.directions(&mesh.positions[first.index()]);
+        let stated = directions.into_iter().zip(&of.components);
+        let left = stated.fold(*axis, |left, (direction, target)| match direction {
+            Some(direction) if target.is_some() => left - direction * direction.dot(&left),
+            _ => left,
+        });
+        left.amax() <= 0.1
     });
     held.flat_map(|of| of.nodes.iter().copied()).collect()
 }

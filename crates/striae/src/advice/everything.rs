@@ -173,6 +173,7 @@ fn moved(model: &Model, step: &Step) -> f64 {
     let own = step.displacements.iter().map(|of| {
         let before = previous(model, step, of.body, &of.nodes);
         let change = [0, 1, 2].map(|axis| of.numbers()[axis].map_or(0.0, |to| to - before[axis]));
+        // Components in other axes have the same length.
         Vec3::from(change).norm()
     });
     let rigid = step.rigid_motions.iter().map(|motion| {

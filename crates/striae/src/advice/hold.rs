@@ -4,11 +4,9 @@
 //! stops all motions that its friction and normals resist, whatever its size; an open pair stops
 //! none unless it is stabilised. In later steps contact may have closed.
 
-use std::collections::BTreeSet;
-
 use striae_contact::initial::Fit;
 use striae_law::friction::Law;
-use striae_mesh::{Mesh, NodeId, Vec3};
+use striae_mesh::{Mesh, Vec3};
 use striae_model::{Body, BodyId, ContactSurface, Model, PairId, Procedure, RigidMotions, Step};
 
 use super::{Advice, Topic};
@@ -53,15 +51,17 @@ pub(super) fn look(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) {
 
 fn prescribed(mesh: &Mesh, step: &Step, body: BodyId) -> RigidMotions {
     let conditions = step.displacements.iter().filter(|of| of.body == body);
-    let components: BTreeSet<(NodeId, usize)> = conditions
-        .flat_map(|of| {
-            let axes = (0..3).filter(|&axis| of.components[axis].is_some());
-            axes.flat_map(|axis| of.nodes.iter().map(move |node| (*node, axis)))
-        })
-        .collect();
     let mut motions = RigidMotions::of(mesh);
-    for (node, axis) in components {
-        motions.stop(&mesh.positions[node.index()], &Vec3::ith(axis, 1.0));
+    for condition in conditions {
+        for node in &condition.nodes {
+            let x = &mesh.positions[node.index()];
+            let directions = condition.axes.directions(x).into_iter();
+            for (direction, target) in directions.zip(&condition.components) {
+                if let (Some(direction), Some(_)) = (direction, target) {
+                    motions.stop(x, &direction);
+                }
+            }
+        }
     }
     motions
 }

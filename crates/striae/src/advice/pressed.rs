@@ -107,6 +107,9 @@ fn of_body(model: &Model, body: BodyId, step: &Step, n: &Vec3) -> Option<f64> {
     let conditions = conditions.filter(|of| spreads(model, body, &of.nodes, n));
     let along = |axis: usize| n[axis].abs() > NORMAL;
     let ways = conditions.filter_map(|of| {
+        if !of.axes.are_global() {
+            return Some(of.way(&model.bodies[body.0].mesh).dot(n));
+        }
         let axis = (0..3).find(|axis| along(*axis) && of.components[*axis].is_some())?;
         Some(of.numbers()[axis]? * n[axis])
     });

@@ -17,7 +17,7 @@ use std::collections::BTreeSet;
 
 use striae_contact::initial::Fit;
 
-use striae_mesh::{NodeId, Vec3};
+use striae_mesh::{Mesh, NodeId, Vec3};
 use striae_model::{BodyId, ContactSurface, Freedom, Model, Pair, RigidId, RigidShape, Step};
 
 use super::{Advice, Topic};
@@ -62,8 +62,8 @@ fn nodes(model: &Model, pair: &Pair, step: &Step) -> Option<(usize, usize)> {
         return None;
     };
     let n = normal.normalize();
-    let way = approach(step, *body, *rigid, &n);
     let mesh = &model.bodies[body.0].mesh;
+    let way = approach(step, (*body, mesh), *rigid, &n);
     let nodes = faces.iter().flat_map(|face| mesh.face_nodes(*face));
     let nodes: BTreeSet<NodeId> = nodes.collect();
     let near = |node: &&NodeId| (mesh.positions[node.index()] - point).dot(&n) <= way;
@@ -71,12 +71,14 @@ fn nodes(model: &Model, pair: &Pair, step: &Step) -> Option<(usize, usize)> {
 }
 
 /// Motion of a body towards a plane of normal `n` that moves itself.
-pub(super) fn approach(step: &Step, body: BodyId, rigid: RigidId, n: &Vec3) -> f64 {
+pub(super) fn approach(
+    step: &Step,
+    (body, mesh): (BodyId, &Mesh),
+    rigid: RigidId,
+    n: &Vec3,
+) -> f64 {
     let own = step.displacements.iter().filter(|of| of.body == body);
-    let own = own.map(|of| {
-        let target = of.numbers().map(|component| component.unwrap_or(0.0));
-        -Vec3::from(target).dot(n)
-    });
+    let own = own.map(|of| -of.way(mesh).dot(n));
     let motions = step.rigid_motions.iter();
     let motions = motions.filter(|motion| motion.surface == rigid);
     let its = motions.map(|motion| {

@@ -112,7 +112,7 @@ fn reached(
         return None;
     };
     let n = normal.normalize();
-    let way = approach(step, body, *rigid, &n);
+    let way = approach(step, (body, mesh), *rigid, &n);
     let near = |node: &&NodeId| (mesh.positions[node.index()] - point).dot(&n) < way;
     let reached = rim.iter().any(|node| near(&node)) && way > 0.0;
     reached.then(|| {

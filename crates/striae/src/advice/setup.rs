@@ -32,8 +32,9 @@ fn displacements(model: &Model, id: BodyId, body: &Body, advice: &mut Advice) {
     let own = prescribed.filter(|(_, of)| of.body == id);
     let largest = own
         .flat_map(|(step, of)| {
+            let way = of.way(&body.mesh);
             let components = (0..3).filter(move |axis| crossing[*axis]);
-            components.filter_map(move |axis| Some((step, of.numbers()[axis]?.abs())))
+            components.map(move |axis| (step, way[axis].abs()))
         })
         .max_by(|(_, a), (_, b)| a.total_cmp(b));
     let [low, high] = extent(&body.mesh);

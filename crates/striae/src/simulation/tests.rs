@@ -150,6 +150,17 @@ fn a_run_of_bodies_that_move_themselves_is_the_same_in_pieces() {
 }
 
 #[test]
+fn a_run_with_nodes_in_axes_of_their_own_is_the_same_in_pieces() {
+    let upper = "{ body = \"upper\", nodes = \"zmax\",";
+    let lower = "{ body = \"lower\", nodes = \"zmin\",";
+    for (text, stated) in [(QUASI_STATIC, upper), (DYNAMIC, lower)] {
+        assert!(text.contains(stated), "{text}");
+        let axes = format!("{stated} axes = [[1, 0.1, 0], [0, 1, 0.05]],");
+        assert_same_in_pieces(&text.replace(stated, &axes), 10);
+    }
+}
+
+#[test]
 fn a_run_with_a_pushed_body_is_the_same_in_pieces() {
     assert_same_in_pieces(PUSHED, 20);
 }

@@ -16,7 +16,7 @@ use std::collections::BTreeSet;
 
 use striae_contact::initial::Fit;
 use striae_mesh::{Face, Mesh, NodeId, Vec3};
-use striae_model::{ContactSurface, Freedom, Model, Pair, RigidShape, Step};
+use striae_model::{BodyId, ContactSurface, Freedom, Model, Pair, RigidShape, Step};
 
 use super::super::{Advice, Topic};
 
@@ -36,7 +36,7 @@ pub(in crate::advice) fn look(
     fit: &Fit,
     advice: &mut Advice,
 ) {
-    let w = of_side(step, &pair.a) - of_side(step, &pair.b);
+    let w = of_side(model, step, &pair.a) - of_side(model, step, &pair.b);
     let Some(d) = w.try_normalize(0.0) else {
         return;
     };
@@ -82,12 +82,12 @@ fn both<T>([a, b]: [Option<T>; 2]) -> Option<[T; 2]> {
 }
 
 /// The farthest prescribed displacement of a side.
-fn of_side(step: &Step, side: &ContactSurface) -> Vec3 {
+fn of_side(model: &Model, step: &Step, side: &ContactSurface) -> Vec3 {
+    let mesh_of = |body: BodyId| &model.bodies[body.0].mesh;
     let mut ways: Vec<Vec3> = Vec::new();
     if let ContactSurface::Deformable { body, .. } = side {
         let own = step.displacements.iter().filter(|of| of.body == *body);
-        let own = own.map(|of| of.numbers().map(|component| component.unwrap_or(0.0)));
-        ways.extend(own.map(Vec3::from));
+        ways.extend(own.map(|of| of.way(mesh_of(*body))));
     }
     if let ContactSurface::Rigid(rigid) = side {
         let own = step.rigid_motions.iter().filter(|of| of.surface == *rigid);

@@ -51,7 +51,8 @@ fn prescribe(prescribed: &mut Prescribed, step: &Step) {
         prescribed[release.body.0]
             .retain(|(node, component)| !(release.components[*component] && nodes.contains(node)));
     }
-    for condition in &step.displacements {
+    let stated = step.displacements.iter();
+    for condition in stated.filter(|of| of.axes.are_global()) {
         for component in (0..3).filter(|at| condition.components[*at].is_some()) {
             let nodes = condition.nodes.iter().map(|node| (*node, component));
             prescribed[condition.body.0].extend(nodes);

@@ -1,0 +1,69 @@
+"""Axes in which displacements are prescribed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Optional, TypeAlias, Union
+
+from . import _check as check
+from ._check import Vector
+from ._errors import refuse
+
+
+class NormalAxis:
+    """One axis, for the component ``x`` of a displacement: nodes slide on a plane where it is
+    held."""
+
+    def __init__(self, normal: Vector) -> None:
+        """Makes it.
+
+        normal: a vector along the axis, of any length.
+        """
+        self.normal = _direction(normal, "normal")
+        """A vector along the axis."""
+
+    def __repr__(self) -> str:
+        return f"NormalAxis({self.normal})"
+
+
+class CylindricalAxes:
+    """Radial, tangential and axial directions for the components ``x``, ``y`` and ``z`` of a
+    displacement, at the position at rest of each node. They stay as the node moves; tangential
+    components are lengths, positive by the right-hand rule about the axis."""
+
+    def __init__(self, axis: Vector, point: Vector = (0.0, 0.0, 0.0)) -> None:
+        """Makes them.
+
+        axis: a vector along the axis, of any length.
+        point: a point of the axis (length).
+        """
+        self.axis = _direction(axis, "axis")
+        """A vector along the axis."""
+        self.point = check.vector(point, "point")
+        """A point of the axis."""
+
+    def __repr__(self) -> str:
+        return f"CylindricalAxes({self.axis}, point={self.point})"
+
+
+Axes: TypeAlias = Union[Sequence[Vector], NormalAxis, CylindricalAxes]
+
+
+def _direction(value: Vector, path: str) -> list[float]:
+    found = check.vector(value, path)
+    if not any(found):
+        raise refuse(path, "a direction must not be the zero vector")
+    return found
+
+
+def vectors_of(axes: Optional[Axes], path: str) -> tuple[str, list[list[float]]]:
+    """The kind of axes and their vectors, as the native part takes them."""
+    if axes is None:
+        return "model", []
+    if isinstance(axes, NormalAxis):
+        return "normal", [axes.normal]
+    if isinstance(axes, CylindricalAxes):
+        return "cylindrical", [axes.point, axes.axis]
+    if len(axes) != 2:
+        raise refuse(path, f"two vectors are needed, but there are {len(axes)}")
+    return "two", [_direction(one, path) for one in axes]
