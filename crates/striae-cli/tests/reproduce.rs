@@ -82,7 +82,10 @@ fn the_list_names_every_case_of_the_collection() {
         .collect();
     listed.sort_unstable();
     let collection = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases");
-    assert_eq!(listed, names(&collection));
+    let mut cases = names(&collection);
+    // Problems that other programs publish are run by a command of their own.
+    cases.retain(|name| name != "foreign");
+    assert_eq!(listed, cases);
     assert!(names(folder.path()).is_empty());
 }
 

@@ -20,7 +20,7 @@ poissons_ratio = 0.3
 [[body]]
 name = "block"
 material = "elastic"
-mesh = { generator = "block", size = [1, 1, 1], divisions = [2, 2, 2], rotation = { axis = [0, 1, 0], angle = 30 } }
+mesh = { generator = "block", size = [1, 1, 1], divisions = [2, 2, 2], rotation = { axis = [0, 1, 0], degrees = 30 } }
 "#;
 
 /// A step with these displacements.

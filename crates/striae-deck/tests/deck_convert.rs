@@ -414,20 +414,20 @@ fn transformed_nodes_are_prescribed_in_their_axes() {
         all.find(named).expect("it is prescribed").axes
     };
     assert_eq!(
-        axes("Base-1", "Low"),
+        axes("Base-1", "Base-1.Low"),
         Axes::Skew {
             x: Vec3::new(1.0, 1.0, 0.0),
             y: Vec3::y(),
         }
     );
     assert_eq!(
-        axes("Pad-1", "High"),
+        axes("Pad-1", "Pad-1.High"),
         Axes::Cylindrical {
             point: Vec3::zeros(),
             axis: Vec3::new(0.0, 0.0, 2.0),
         }
     );
-    assert_eq!(axes("Pad-1", "Low"), Axes::Global);
+    assert_eq!(axes("Pad-1", "Pad-1.Low"), Axes::Global);
     // Spherical axes have no counterpart.
     assert_eq!(listed.len(), 1, "{listed:?}");
     assert!(listed[0].contains("*TRANSFORM"), "{listed:?}");

@@ -4,7 +4,7 @@
 
 mod deck;
 
-use deck::{faulty, misstated};
+use deck::{faulty, misread, misstated};
 
 #[test]
 fn constants() {
@@ -112,11 +112,6 @@ fn constants() {
             r#"decay = { kinetic_over_static = 0.5, slip_rate = 1 }, by_state = { form = "ageing-law", direct_effect = 0.01, evolution_effect = 0.015, slip_rate = 1, slip_distance = 1 }"#,
             "22:106: this friction is not admissible: it has both `decay` and `by_state`, which both say how friction goes with the slip rate; give one of them",
         ),
-        (
-            "friction by state without a direct effect",
-            r#"by_state = { form = "slip-law", direct_effect = 0, evolution_effect = 0.015, slip_rate = 1, slip_distance = 1 }"#,
-            "22:89: `direct_effect` in [[pair]] friction by_state must be a number greater than 0, but is 0",
-        ),
     ];
     for (what, keys, expected) in dependences {
         let friction = format!(r#"law = "coulomb", mu = 0.3, {keys}"#);
@@ -126,6 +121,16 @@ fn constants() {
             &[expected],
         );
     }
+    misread(
+        "friction by state without a direct effect",
+        &[(
+            r#"law = "coulomb", mu = 0.3"#,
+            r#"law = "coulomb", mu = 0.3, by_state = { form = "slip-law", direct_effect = 0, evolution_effect = 0.015, slip_rate = 1, slip_distance = 1 }"#,
+        )],
+        &[
+            "22:89: `direct_effect` in [[pair]] friction by_state must be a number greater than 0, but is 0",
+        ],
+    );
     misstated(
         "normal of no length",
         &[("normal = [0, 0, 1]", "normal = [0, 0, 0]")],

@@ -11,7 +11,6 @@ use crate::{
     configuration::Configuration,
     kinematics::{Kinematics, Presence, Pressure},
     quantity::Quantity,
-    side::Side,
     term::{Lanes, Source, gradient, parts, variable3},
     traction::{Cap, in_frame, on_lanes, push_textures},
     unknown::{Numbering, Unknown},
@@ -60,7 +59,6 @@ pub(super) struct NodeState<'a> {
     /// Friction law.
     pub(super) friction: &'a Friction,
     numbering: Numbering,
-    faces_itself: bool,
     prescribed: &'a Prescribed,
     /// Lanes that the quantities depend on.
     pub(super) lanes: Lanes<'a>,
@@ -129,7 +127,6 @@ impl<'a> NodeState<'a> {
             node,
             friction,
             numbering,
-            faces_itself: configuration.pair.is_self_contact(),
             prescribed,
             lanes,
             gap: Q::variable(gap.value, GAP),
@@ -187,28 +184,18 @@ impl<'a> NodeState<'a> {
         self.node.kinematics.bounding_pressure(p)
     }
 
-    /// Returns whether a free position of the node itself or of a node that it faces changes the gap.
-    /// Neighbours have rows of their own, so their freedom to move does not make room for one more.
+    /// Returns whether a free position of the node itself or of a node of the other side changes the
+    /// gap. Neighbours on its own side have rows of their own, so their freedom to move does not make
+    /// room for one more.
     pub(super) fn is_free(&self) -> bool {
         let reaches = &self.node.kinematics.reaches;
         reaches.iter().any(|(first, reach)| {
             let Unknown::Position { side, node, .. } = self.numbering.unknown(*first) else {
                 return false;
             };
-            let answers =
-                node == self.node.node && side == self.node.side || self.is_opposite(side, reach);
+            let answers = side != self.node.side || node == self.node.node;
             answers && self.prescribed.free_slope(side, node, reach).amax() > FIXED
         })
-    }
-
-    /// Returns whether a node of a side is on a surface that the node faces, by the derivative of
-    /// the gap by its position: in self-contact, both are on one side, and what faces the node
-    /// opens the gap where it moves along the normal of the node.
-    fn is_opposite(&self, side: Side, reach: &Vec3) -> bool {
-        match self.faces_itself {
-            true => reach.dot(&self.node.frame.n.value) > 0.0,
-            false => side != self.node.side,
-        }
     }
 
     /// `varpi` at a slip rate.
