@@ -23,7 +23,7 @@ pub struct StepPlan {
     pub start: Moment,
     /// Prescribed components of displacement by `(body, node, axis)`, along the coordinate axes.
     pub displacements: BTreeMap<(usize, usize, usize), Prescription>,
-    /// Those along other directions by `(body, node)`; none of a node is along a coordinate axis
+    /// Prescribed components along other directions by `(body, node)`; none of a node is along a coordinate axis
     /// that is in `displacements`.
     pub oblique: BTreeMap<(usize, usize), Vec<Oblique>>,
     /// Loads.
