@@ -69,9 +69,10 @@ fn all_axes_are_read_and_written() {
     let two =
         format!(r#"{{ body = "block", nodes = "zmin", axes = {ALONG}, x = 0, y = 0, z = 0 }}"#);
     let normal = r#"{ body = "block", nodes = "xmax", axes = { normal = [0, 0, 3] }, x = 0 }"#;
+    let held = r#"{ body = "block", nodes = "xmin", x = 0, y = 0, z = 0 }"#;
     let text = format!("{BLOCK}{}", step("turn", &format!("{cylindrical}, {two}")))
         + "release = []\n"
-        + &step("hold", normal).replace(
+        + &step("hold", &format!("{normal}, {held}")).replace(
             "increments",
             "release = [{ body = \"block\", nodes = \"zmin\" }, { body = \"block\", nodes = \"zmax\" }]\nincrements",
         );

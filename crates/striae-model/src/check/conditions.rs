@@ -58,7 +58,10 @@ pub(super) fn releases(
         } = release;
         let prescribed = |component: usize| {
             let mut nodes = nodes.iter();
-            nodes.any(|node| history.prescribed.contains(&(*body, *node, component)))
+            nodes.any(|node| {
+                let freedom = (*body, *node, component);
+                history.prescribed.contains(&freedom) || history.directions.hold(freedom)
+            })
         };
         let wrong = match components {
             [false, false, false] => Some("all components".to_owned()),

@@ -9,7 +9,7 @@ use striae_solve::{
     model::{BodyId, Curve, Displacement, Release, Step, Value},
 };
 
-use super::{COMPONENTS, along};
+use super::{COMPONENTS, Freedom, along};
 use crate::{check::Draft, fault::FaultKind};
 
 /// A direction along which a node is prescribed.
@@ -34,6 +34,12 @@ impl Directions {
             of_nodes: BTreeMap::new(),
             are_needed: all.any(|condition| !condition.axes.are_global()),
         }
+    }
+
+    /// Returns whether a component of a node is prescribed, in whatever axes it was stated.
+    pub(super) fn hold(&self, (body, node, component): Freedom) -> bool {
+        let known = self.of_nodes.get(&(body, node));
+        known.is_some_and(|known| known.iter().any(|of| of.component == component))
     }
 
     pub(super) fn release(&mut self, release: &Release) {
