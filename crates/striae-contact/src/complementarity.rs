@@ -27,7 +27,7 @@
 //!
 //! which is the exact one where the row is satisfied.
 //!
-//! Friction that depends on rate and state has no stick; see [`creep`].
+//! Friction that depends on rate and state has no stick; see `creep`.
 
 mod creep;
 mod friction;
