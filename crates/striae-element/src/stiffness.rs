@@ -74,8 +74,8 @@ impl Stiffness {
         self.entries[[0, 3, 5][axis] * n * n + a * n + b] += value;
     }
 
-    /// Adds a symmetric block to the derivative of the force on corner `a` by the position of
-    /// corner `b`.
+    /// Adds a block, by rows, to the derivative of the force on corner `a` by the position of corner
+    /// `b`; that of the corners swapped has to be its transpose.
     pub fn add_between(&mut self, a: usize, b: usize, block: &[[f64; 3]; 3]) {
         let n = self.corners;
         for (at, (i, k)) in COMPONENTS.into_iter().enumerate() {

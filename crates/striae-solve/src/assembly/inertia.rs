@@ -9,6 +9,7 @@
 //! and every node the part `a_f (f_int - f_ext)_0` of the last converged state.
 //! Without inertia `a_f = 0` and `a_alpha = 0`.
 
+use nalgebra::Matrix3;
 use striae_element::ElementResponse;
 use striae_mesh::{MAX_CORNERS, Vec3};
 
@@ -131,15 +132,13 @@ impl Inertia {
         context: &StepContext,
         response: &mut ElementResponse,
     ) {
+        if nodes
+            .iter()
+            .any(|&node| context.turned.frame(node).is_some())
+        {
+            return self.add_turned_mass(nodes, mass, context, response);
+        }
         for b in 0..nodes.len() {
-            if let Some(frame) = context.turned.frame(nodes[b]) {
-                let free = frame.free() * self.stiffness;
-                for a in 0..nodes.len() {
-                    let block = free * mass[a * nodes.len() + b];
-                    response.stiffness.add_between(a, b, &block.into());
-                }
-                continue;
-            }
             for axis in 0..3 {
                 if context.fixed[nodes[b].component(axis)] {
                     continue;
@@ -148,6 +147,27 @@ impl Inertia {
                     let value = mass[a * nodes.len() + b] * self.stiffness;
                     response.stiffness.add_along(axis, a, b, value);
                 }
+            }
+        }
+    }
+
+    /// Adds `P_a P_b m_ab` with the projections to what is free at the nodes: prescribed components
+    /// of `b` have imposed accelerations, and rows of those of `a` are left out anyway. So the
+    /// blocks are those of a symmetric matrix, as the stiffness has them.
+    fn add_turned_mass(
+        &self,
+        nodes: &[GlobalNode],
+        mass: &[f64],
+        context: &StepContext,
+        response: &mut ElementResponse,
+    ) {
+        let free: Vec<Matrix3<f64>> = nodes.iter().map(|&node| context.free(node)).collect();
+        for b in 0..nodes.len() {
+            for a in 0..nodes.len() {
+                let block = free[a] * free[b] * (mass[a * nodes.len() + b] * self.stiffness);
+                // Rows of nalgebra's arrays are columns.
+                let block = block.transpose().into();
+                response.stiffness.add_between(a, b, &block);
             }
         }
     }

@@ -176,6 +176,15 @@ impl StepContext<'_> {
         }
     }
 
+    /// Projection to the directions that are free at a node.
+    pub(crate) fn free(&self, node: GlobalNode) -> Matrix3<f64> {
+        let fixed = |axis: usize| self.fixed[node.component(axis)];
+        match self.turned.frame(node) {
+            Some(frame) => frame.free(),
+            None => Matrix3::from_diagonal(&Vec3::from_fn(|axis, _| f64::from(!fixed(axis)))),
+        }
+    }
+
     /// Part of a vector at a node along which it is prescribed.
     pub(crate) fn prescribed_part(&self, node: GlobalNode, vector: &Vec3) -> Vec3 {
         let components = self.components(node, vector);
