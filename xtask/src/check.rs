@@ -1,4 +1,4 @@
-//! `cargo xtask check`: formatting, borders, lints, tests, documentation, examples and,
+//! `cargo xtask check`: formatting, borders, lints, documentation, tests, examples and,
 //! where there is Python, its package.
 //!
 //! Cheap checks come first. Everything is built in the release profile, so that
@@ -41,14 +41,14 @@ const BUILT: [Stage; 3] = [
         environment: &[],
     },
     Stage {
-        name: "tests",
-        arguments: &["test", "--release", "--workspace"],
-        environment: &[],
-    },
-    Stage {
         name: "documentation",
         arguments: &["doc", "--release", "--workspace", "--no-deps"],
         environment: &[("RUSTDOCFLAGS", "--deny warnings")],
+    },
+    Stage {
+        name: "tests",
+        arguments: &["test", "--release", "--workspace"],
+        environment: &[],
     },
 ];
 
