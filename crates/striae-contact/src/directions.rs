@@ -21,7 +21,17 @@
 //! what is left acts on all directions alike, so they disturb none.
 //!
 //! In a direction that is not kept the row of friction is `z = 0`, and slip there does not
-//! count. Directions are components along the nodal tangents and constant in an increment.
+//! count: in a plane of symmetry it is the slip of neighbours, which a mirror image opposes. Only
+//! where prescribed motions move a node along such a direction, past what it faces, its own slip is
+//! known and the law determines its friction; it is *driven*. With the imposed motion `v_J` of
+//! positions that are prescribed along `c`, and the interpolation `N_J` of the opposing facet at the
+//! projection of the node,
+//!
+//! ```text
+//! (v_k - sum N_J v_J/sum N_J) . c != 0
+//! ```
+//!
+//! Directions are components along the nodal tangents and constant in an increment.
 //!
 //! Null vectors of a mass matrix fade by .27 from node to node: columns further than two couplings
 //! from a contested one have no effect.
@@ -36,13 +46,16 @@ use striae_surface::node::SurfaceNode;
 
 use crate::{
     configuration::Configuration,
-    frame::frame_of,
+    coverage::Place,
+    frame::{Frame, frame_of},
     pairing::{Corners, SIGNS, paired_facets},
     patch::kept_on,
+    placement::Placement,
     segment::SegmentDerivatives,
     selection::Selection,
     side::Side,
     slip_freedom::SlipFreedom,
+    traction_basis::KeptNode,
     transported::Transported,
 };
 use gram::{Column, Gram, Node, combination, product};
@@ -53,6 +66,11 @@ const DETERMINED: f64 = 1e-4;
 const UNDISTURBED: f64 = 1.0 - 1e-6;
 /// Gap up to which a node touches, over the size of its segments.
 const TOUCHING: f64 = 1e-6;
+/// Motion of a node past what it faces, over the facet size, that is round-off.
+const ROUND_OFF: f64 = 1e-9;
+/// Square of the free part of a unit vector below which a node is prescribed along it, and weight of
+/// such nodes above which a point is.
+const MOSTLY: f64 = 0.5;
 
 /// A position that contact moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,9 +81,18 @@ pub struct Mover {
     pub prescribed: [bool; 3],
     /// Axes of the components in columns, where they are not the coordinate axes.
     pub axes: Option<Matrix3<f64>>,
+    /// Motion in the increment along the prescribed components; `None` if others move it.
+    pub motion: Option<Vec3>,
 }
 
 impl Mover {
+    /// Motion along a unit vector; `None` unless it is prescribed.
+    fn imposed(&self, c: &Vec3) -> Option<f64> {
+        let motion = self.motion?;
+        let is_held = (self.free() * c).norm_squared() < MOSTLY;
+        is_held.then(|| motion.dot(c))
+    }
+
     /// Returns whether nothing moves it but displacements.
     fn is_rigid(&self) -> bool {
         self.prescribed == [true; 3]
@@ -94,6 +121,9 @@ pub struct Party<'a> {
     pub closed: Vec<bool>,
     /// Has friction in this step.
     pub has_friction: bool,
+    /// Placements of a rigid side at the start and the end of the increment; `None` where they are
+    /// not prescribed.
+    pub placements: Option<[Placement; 2]>,
 }
 
 /// The directions of all kept nodes of all pairs; none where nothing is prescribed and no node is
@@ -114,8 +144,62 @@ pub fn slip_freedoms(parties: &[Party]) -> Option<Vec<Vec<SlipFreedom>>> {
     }
     gram.contest(&mut nodes);
     let mut freedoms = nodes.iter().map(Node::freedom);
-    let of_party = |party: &Party| freedoms.by_ref().take(party.closed.len()).collect();
+    let of_party = |party: &Party| {
+        let of_kept = party.selection.kept().iter().zip(freedoms.by_ref());
+        of_kept
+            .map(|(kept, freedom)| match party.drives(kept, freedom) {
+                true => SlipFreedom::Driven,
+                false => freedom,
+            })
+            .collect()
+    };
     Some(parties.iter().map(of_party).collect())
+}
+
+impl Party<'_> {
+    /// Returns whether prescribed motions move a node along a direction that is not kept.
+    fn drives(&self, kept: &KeptNode, freedom: SlipFreedom) -> bool {
+        if !self.has_friction || freedom == SlipFreedom::Plane {
+            return false;
+        }
+        let (configuration, (side, node)) = (self.configuration, kept.place());
+        let Frame { t: [t1, t2], .. } = frame_of(configuration, side, node);
+        let lost = match freedom {
+            SlipFreedom::Line([q1, q2]) => vec![t2.value * q1 - t1.value * q2],
+            _ => vec![t1.value, t2.value],
+        };
+        let Some((contact, _)) = configuration.opposite(side, node) else {
+            return false;
+        };
+        let round_off = ROUND_OFF * configuration.size(side, node);
+        lost.iter().any(|c| {
+            let own = self.movers[side][node].imposed(c);
+            let opposing = own.and_then(|_| self.imposed_on(&contact.place, side, c));
+            own.zip(opposing)
+                .is_some_and(|(own, opposing)| (own - opposing).abs() > round_off)
+        })
+    }
+
+    /// Motion along a unit vector of the point that a node of a side faces; `None` unless most of
+    /// it is prescribed.
+    fn imposed_on(&self, place: &Place, side: Side, c: &Vec3) -> Option<f64> {
+        let configuration = self.configuration;
+        if configuration.pair.is_rigid() {
+            let at = place.point(configuration, side);
+            let reference = configuration.placement.back(&at);
+            let [start, end] = self.placements?.map(|at| at.point(&reference));
+            return Some((end - start).dot(c));
+        }
+        let (corners, weights) = place.weights(configuration, side)?;
+        let movers = &self.movers[configuration.pair.opposing(side)];
+        let corners = corners.iter().zip(weights);
+        let known = corners.filter_map(|(&corner, weight)| {
+            let motion = movers[corner.index()].imposed(c)?;
+            Some((weight, weight * motion))
+        });
+        let (weight, sum) = known.fold((0.0, 0.0), |sum, of| (sum.0 + of.0, sum.1 + of.1));
+        (weight > MOSTLY).then(|| sum / weight)
+    }
 }
 
 /// Numbers of movers that displacements hold in part or that several pairs or faces move, and

@@ -10,4 +10,7 @@ pub enum SlipFreedom {
     Line([f64; 2]),
     /// In none.
     Held,
+    /// In one or none, but what is prescribed moves the node along another one. So it slips, and its
+    /// friction follows from the law.
+    Driven,
 }

@@ -110,6 +110,7 @@ fn half_a_model_has_half_the_force() {
         r#"{ law = "coulomb", mu = 0.3 }"#,
         r#"{ law = "coulomb", mu = 0.3, shear_cap = 1e3 }"#,
         r#"{ law = "frictionless" }"#,
+        r#"{ law = "coulomb", mu = 0.3, by_state = { form = "ageing-law", direct_effect = 0.01, evolution_effect = 0.008, slip_rate = 0.1, slip_distance = 0.1 } }"#,
     ] {
         let (whole, half) = (forces(&blocks(false, law)), forces(&blocks(true, law)));
         assert_eq!(whole.len(), half.len());
@@ -215,6 +216,97 @@ fn corners_can_be_pressed_with_a_face_held() {
         let all = forces(&corner(is_one_surface, "ymin"));
         let pressed: Vec3 = all[4].iter().sum();
         assert!(pressed.x > 10.0 && pressed.z > 10.0, "{pressed}");
+    }
+}
+
+/// A block on a floor, or on another block whose ends are prescribed too, that is drawn by one of
+/// its ends.
+fn drawn(on_block: bool, law: &str) -> String {
+    let (lower, side, held) = match on_block {
+        true => (
+            r#"
+[[body]]
+name = "lower"
+material = "rubber"
+mesh = { generator = "block", origin = [0, 0, -1], size = [1, 1, 1], divisions = [3, 2, 2] }
+"#,
+            r#"{ body = "lower", facets = "zmax" }"#,
+            r#"{ body = "lower", nodes = "zmin", y = 0, z = 0 }, { body = "lower", nodes = "xmin", x = 0 }, { body = "lower", nodes = "xmax", x = 0 },"#,
+        ),
+        false => (
+            r#"
+[[rigid]]
+name = "floor"
+plane = { point = [0, 0, 0], normal = [0, 0, 1] }
+"#,
+            r#"{ rigid = "floor" }"#,
+            "",
+        ),
+    };
+    format!(
+        r#"
+title = "drawn by its end"
+[[material]]
+name = "rubber"
+law = "neo-hookean"
+youngs_modulus = 1000
+poissons_ratio = 0
+{lower}
+[[body]]
+name = "block"
+material = "rubber"
+mesh = {{ generator = "block", size = [1, 1, 1], divisions = [4, 2, 2] }}
+[[pair]]
+name = "sole"
+a = {{ body = "block", facets = "zmin" }}
+b = {side}
+friction = {law}
+[[step]]
+name = "press"
+increments = 2
+displacement = [
+    {held}
+    {{ body = "block", nodes = "xmin", x = 0 }},
+    {{ body = "block", nodes = "zmax", y = 0, z = -0.02 }},
+]
+[[step]]
+name = "slide"
+increments = 4
+displacement = [{{ body = "block", nodes = "xmin", x = 0.2 }}]
+"#
+    )
+}
+
+/// The slip of nodes that prescribed motions move past what they face is known, so that they have
+/// the friction of the law, as all others.
+#[test]
+fn nodes_that_are_driven_have_the_friction_of_the_law() {
+    for on_block in [false, true] {
+        for law in [
+            r#"{ law = "coulomb", mu = 0.3 }"#,
+            r#"{ law = "coulomb", mu = 0.3, by_state = { form = "slip-law", direct_effect = 1e-9, evolution_effect = 1e-9, slip_rate = 0.1, slip_distance = 0.1 } }"#,
+        ] {
+            let (all, state) = solved(&drawn(on_block, law));
+            let pair = &state.pairs[0];
+            let mut slipping = 0;
+            for side in Side::BOTH {
+                for (node, kept) in pair.nodes[side].iter().zip(&pair.kept[side]) {
+                    if *kept && node.pressure > 0.0 {
+                        assert_eq!(node.status, Status::Slip, "{law}");
+                        let off = node.tau.norm() / (0.3 * node.pressure) - 1.0;
+                        assert!(off.abs() < 1e-6, "{on_block} {law}: {off:e}");
+                        slipping += 1;
+                    }
+                }
+            }
+            assert!(slipping >= 12, "{slipping}");
+            // The joint of two blocks tilts, so that only the floor has the ratio of the forces.
+            if !on_block {
+                let last = all[5][0];
+                let off = last.x.hypot(last.y) / last.z.abs() / 0.3 - 1.0;
+                assert!(off.abs() < 1e-5, "{law}: {off:e}");
+            }
+        }
     }
 }
 

@@ -180,17 +180,17 @@ pub(crate) fn assembled_at(
     s: f64,
     workspace: &mut Workspace,
 ) -> Result<Assembled, CutBack> {
+    let imposed = context.imposed(s);
     let Selected {
         selections,
         tractions,
-    } = selected(context, state, s);
+    } = selected(context, state, s, &imposed);
     workspace.prepare(context.problem, &selections);
     let trial = Trial {
         positions: state.positions.clone(),
         tractions,
         rigid: state.rigid.clone(),
     };
-    let imposed = context.imposed(s);
     let setting = Setting {
         context,
         state,

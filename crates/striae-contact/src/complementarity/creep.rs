@@ -13,8 +13,8 @@
 //! row has the same solutions for every `r`; its Jacobian is exact. `r` is at least so large that a
 //! length `|y|` belongs to one rate, however friction falls with slip.
 //!
-//! A node that can slip along one direction only has this row along it. One that cannot be moved
-//! slips at the rate that is imposed on it; without slip it has `z = 0`.
+//! A node that can slip along one direction only has this row along it. One that prescribed motions
+//! make slip has the friction of that rate, and one that cannot slip at all `z = 0`.
 //!
 //! A node is told to stick while its state grows nearly as at rest, at `v theta/D` below
 //! [`RESTING`].
@@ -62,7 +62,8 @@ pub(super) fn creeping(
     match Mobility::new(state) {
         Mobility::Free => creeping.freely(&creeping.spring(r)),
         Mobility::Along(way) => creeping.along(&way.of_friction, &creeping.spring(r)),
-        Mobility::Held => creeping.imposed(ROUND_OFF * size),
+        Mobility::Driven => creeping.imposed(ROUND_OFF * size),
+        Mobility::Held => creeping.held(),
     }
 }
 
@@ -104,7 +105,7 @@ impl Creeping<'_> {
             Q::combination([(1.0, &self.z[at]), (1.0, &spring)])
         });
         let Some((length, direction)) = unit(&y) else {
-            return (Status::Stick, self.z.map(traction));
+            return self.held();
         };
         let (rate, radius) = self.shared(&length, &direction, r);
         let rows = [0, 1].map(|at| {
@@ -127,13 +128,18 @@ impl Creeping<'_> {
         (self.status(rate), [row, across(w, &self.z)])
     }
 
+    /// `z = 0`.
+    fn held(&self) -> (Status, [TangentialRow; 2]) {
+        (Status::Stick, self.z.map(traction))
+    }
+
     /// `z = rho varpi(|du|/dt) K^-1 du/|K^-1 du|`.
     fn imposed(&self, round_off: f64) -> (Status, [TangentialRow; 2]) {
         let Some((way, _)) = unit(&self.state.slip).filter(|(way, _)| way.re > round_off) else {
-            return (Status::Stick, self.z.map(traction));
+            return self.held();
         };
         let Some((_, direction)) = unit(&self.state.turned) else {
-            return (Status::Stick, self.z.map(traction));
+            return self.held();
         };
         let rate = way.re / self.past.elapsed;
         let [log_rate, pressure] = [variable(rate.ln(), 0), variable(self.pressure, 1)];

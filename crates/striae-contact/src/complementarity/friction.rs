@@ -9,7 +9,12 @@
 //! |y| <= varpi : q . du = 0, w' . z = 0    else z = varpi sign(y) w
 //! ```
 //!
-//! One that cannot slip at all has `z = 0`.
+//! One that cannot slip at all has `z = 0`. One that prescribed motions make slip, along a direction
+//! in which it cannot by itself, slips:
+//!
+//! ```text
+//! z = varpi K^-1 du/|K^-1 du|
+//! ```
 //!
 //! If friction falls with the slip rate, it may fall faster with slip than the bodies relax: with
 //! `f(d) = F - k d - varpi(d/dt)`, `f'(0)` is positive, and Newton's method goes backwards from
@@ -113,6 +118,7 @@ impl Friction<'_> {
                 self.slips(y.re.abs(), radius, way.map(|way| way.re))
                     .then(|| along(w, &self.z, &y, &self.reaching(&self.begun, &way), begins))
             }
+            Mobility::Driven => self.driven(),
             Mobility::Free | Mobility::Held => {
                 let y = self.y(r);
                 let length = y[0].re.hypot(y[1].re);
@@ -143,6 +149,7 @@ impl Friction<'_> {
                     along(w, &self.z, &y, &radius(&way), false)
                 })
             }
+            Mobility::Driven => self.driven(),
             Mobility::Free | Mobility::Held => {
                 let [z, turned] = [&self.z, turned].map(|v| [v[0].re, v[1].re]);
                 slips(z, turned).then(|| {
@@ -152,6 +159,13 @@ impl Friction<'_> {
             }
         };
         self.slip_or_stick(rows)
+    }
+
+    /// Slip along `du` whatever `z` is; `None` before anything has moved.
+    fn driven(&self) -> Option<[TangentialRow; 2]> {
+        let turned = &self.state.turned;
+        let moves = turned[0].re != 0.0 || turned[1].re != 0.0;
+        moves.then(|| slip(&self.z, turned, &self.reaching(&self.varpi, turned), false))
     }
 
     /// Radius of the slip surface at which slip continues: if friction depends on the slip rate,
@@ -223,7 +237,7 @@ impl Friction<'_> {
         let across = |v: &[Q; 2]| Q::combination([(direction.x, &v[1]), (-direction.y, &v[0])]);
         let second = match self.mobility {
             Mobility::Free => self.resting(across(&self.state.turned)),
-            Mobility::Along(_) | Mobility::Held => traction(across(z)),
+            Mobility::Along(_) | Mobility::Held | Mobility::Driven => traction(across(z)),
         };
         [traction(along), second]
     }
@@ -237,7 +251,7 @@ impl Friction<'_> {
                 let resting = part(&way.of_slip, slip);
                 [self.resting(resting), across(&way.of_friction, &self.z)]
             }
-            Mobility::Held => self.z.map(traction),
+            Mobility::Held | Mobility::Driven => self.z.map(traction),
         }
     }
 

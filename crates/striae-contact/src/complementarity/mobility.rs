@@ -14,6 +14,8 @@ pub(super) enum Mobility {
     Along(Box<Way>),
     /// In none.
     Held,
+    /// In none by itself, but it is made to slip.
+    Driven,
 }
 
 /// The only way that a node can go, in components along the tangents.
@@ -38,6 +40,7 @@ impl Mobility {
                 }))
             }
             SlipFreedom::Held => Self::Held,
+            SlipFreedom::Driven => Self::Driven,
         }
     }
 }

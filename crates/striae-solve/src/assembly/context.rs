@@ -207,6 +207,16 @@ impl<'a> StepContext<'a> {
         }
     }
 
+    /// Motions of all nodes from a state along what is prescribed; zero along what is free.
+    pub(crate) fn imposed_motions(&self, state: &State, imposed: &Imposed) -> Vec<Vec3> {
+        let mut motions = vec![Vec3::zeros(); state.positions.len()];
+        for &(node, axis, position) in &imposed.positions {
+            let way = position - self.along(node, axis, &state.positions[node]);
+            motions[node.0] += self.axis(node, axis) * way;
+        }
+        motions
+    }
+
     /// Values imposed at the fraction `s` of the step, independent of the previous state.
     pub fn imposed(&self, s: f64) -> Imposed {
         let moment = self.plan.start.later(s);

@@ -82,7 +82,7 @@ impl<'a> Attempt<'a> {
         let Selected {
             selections,
             tractions,
-        } = selected(context, state, s);
+        } = selected(context, state, s, imposed);
         workspace.prepare(context.problem, &selections);
         // Work of an attempt that failed is not that of this one.
         workspace.take_work();

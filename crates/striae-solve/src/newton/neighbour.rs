@@ -90,7 +90,7 @@ impl<'a> Neighbour<'a> {
         let Selected {
             mut selections,
             mut tractions,
-        } = selected_in(context, before, base.fraction, Some(after));
+        } = selected_in(context, before, (base.fraction, &imposed), Some(after));
         if base.increment.has_reselected {
             let place = (context, before, &imposed);
             selections = iterated(place, base.fraction, time, course, workspace)?;

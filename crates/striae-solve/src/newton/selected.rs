@@ -5,14 +5,16 @@ use striae_contact::{
     configuration::Configuration,
     directions::{Mover, Party, slip_freedoms},
     evaluation::Evaluation,
+    placement::Placement,
     selection::{Kept, Selection},
     side::Side,
     unknowns::{Label, NodeResult, Status, Tractions},
 };
+use striae_mesh::Vec3;
 use striae_surface::node::SurfaceNode;
 
 use crate::{
-    assembly::{Setting, StepContext, Trial},
+    assembly::{Imposed, Setting, StepContext, Trial},
     model::Strategy,
     state::{PairState, State},
 };
@@ -24,21 +26,32 @@ pub(super) struct Selected {
 }
 
 /// The fields in the converged state. A node that was not kept starts with the old field.
-pub(super) fn selected(context: &StepContext, state: &State, s: f64) -> Selected {
-    selected_in(context, state, s, None)
+pub(super) fn selected(
+    context: &StepContext,
+    state: &State,
+    s: f64,
+    imposed: &Imposed,
+) -> Selected {
+    selected_in(context, state, (s, imposed), None)
 }
 
 /// The fields of given kept nodes in the converged state, chosen where there are none.
 pub(super) fn selected_in(
     context: &StepContext,
     state: &State,
-    s: f64,
+    (s, imposed): (f64, &Imposed),
     given: Option<&[PairState]>,
 ) -> Selected {
     let mut selected = without_freedoms(context, state, s, given);
     let start = |pair| context.configuration(pair, &state.positions, &state.rigid);
     let nodes: Vec<_> = state.pairs.iter().map(|pair| &pair.nodes).collect();
-    restrict(context, &mut selected.selections, start, &nodes);
+    restrict(
+        context,
+        (state, imposed),
+        &mut selected.selections,
+        start,
+        &nodes,
+    );
     selected
 }
 
@@ -133,7 +146,8 @@ pub(super) fn reselected(setting: &Setting, trial: &Trial, contacts: &[Evaluatio
     let context = setting.context;
     let latest = |pair| context.configuration(pair, &trial.positions, &trial.rigid);
     let nodes: Vec<_> = contacts.iter().map(|contact| &contact.nodes).collect();
-    restrict(context, &mut selections, latest, &nodes);
+    let ends = (setting.state, setting.imposed);
+    restrict(context, ends, &mut selections, latest, &nodes);
     Selected {
         selections,
         tractions,
@@ -141,9 +155,10 @@ pub(super) fn reselected(setting: &Setting, trial: &Trial, contacts: &[Evaluatio
 }
 
 /// Restricts friction of the kept nodes to the directions in which it is determined, in these
-/// configurations, where contact is as in `nodes`.
+/// configurations, where contact is as in `nodes`, in an increment from a state to what is imposed.
 fn restrict<'a>(
     context: &'a StepContext,
+    ends: (&State, &Imposed),
     selections: &mut [Selection],
     configuration: impl Fn(usize) -> Configuration<'a>,
     nodes: &[&[Vec<NodeResult>; 2]],
@@ -161,10 +176,12 @@ fn restrict<'a>(
         return;
     }
     let configurations: Vec<_> = pairs.clone().map(configuration).collect();
+    let motions = context.imposed_motions(ends.0, ends.1);
     let party = |pair: usize| Party {
         configuration: &configurations[pair],
         selection: &selections[pair],
-        movers: Side::BOTH.map(|side| movers(context, pair, side)),
+        movers: Side::BOTH.map(|side| movers(context, &motions, pair, side)),
+        placements: placements(context, ends, pair),
         closed: {
             let kept = selections[pair].kept().iter();
             kept.map(|kept| nodes[pair][kept.side][kept.node].status != Status::Open)
@@ -182,19 +199,37 @@ fn restrict<'a>(
 }
 
 /// The nodes of a side; none of a rigid one.
-fn movers(context: &StepContext, pair: usize, side: Side) -> Vec<Mover> {
+fn movers(context: &StepContext, motions: &[Vec3], pair: usize, side: Side) -> Vec<Mover> {
     let of_pair = &context.fixed_on_pair[pair];
     let prescribed = of_pair.components[side].chunks(3).enumerate();
     let mover = |(node, prescribed): (usize, &[bool])| {
         let node = SurfaceNode::new(node);
         let global = context.problem.surface_node(pair, side, node)?;
+        let prescribed = [prescribed[0], prescribed[1], prescribed[2]];
+        // Nodes that follow others count as prescribed without a motion of their own.
+        let own = [0, 1, 2].map(|axis| context.fixed[global.component(axis)]);
         Some(Mover {
             number: global.0 as u32,
-            prescribed: [prescribed[0], prescribed[1], prescribed[2]],
+            prescribed,
             axes: of_pair.axes[side].get(&node.index()).copied(),
+            motion: (own == prescribed).then(|| motions[global.0]),
         })
     };
     prescribed.filter_map(mover).collect()
+}
+
+/// Placements of the rigid side of a pair at both ends of an increment, if both are known before.
+fn placements(
+    context: &StepContext,
+    (state, imposed): (&State, &Imposed),
+    pair: usize,
+) -> Option<[Placement; 2]> {
+    let problem = context.problem;
+    let rigid = problem.pairs[pair].rigid?;
+    let known: Option<Vec<f64>> = imposed.rigid[rigid].iter().copied().collect();
+    let end = imposed.before[rigid].moved_to(&known?.try_into().ok()?);
+    let reference = &problem.model.rigid_surfaces[rigid].reference;
+    Some([&state.rigid[rigid], &end].map(|pose| pose.placement(reference)))
 }
 
 /// Configurations of all pairs at the start and in a trial state.

@@ -2,6 +2,7 @@
 //! differences falls with the square of the step.
 
 use nalgebra::Matrix3;
+use striae_contact::slip_freedom::SlipFreedom;
 use striae_contact::unknowns::Status;
 use striae_law::friction::Friction;
 use striae_mesh::{CellKind, Vec3};
@@ -106,6 +107,29 @@ fn of_nodes_that_are_prescribed_in_axes_of_their_own() {
         whole.imposed = context.imposed_after(before, state.time, state.time);
         whole.assert_order();
     }
+}
+
+/// A block is drawn by one of its ends. All nodes slip along their friction, so that the rows of
+/// driven nodes hold at all of them.
+#[test]
+fn of_nodes_that_are_driven() {
+    let mut model = on_rigid(plane([0.0; 3], [0.0, 0.0, 1.0]));
+    let mut step = step();
+    step.displacements = vec![
+        model.hold("block", "xmin", [Some(-0.3), Some(0.05), None]),
+        model.hold("block", "zmax", [None, None, Some(-0.05)]),
+    ];
+    model.steps = vec![step];
+    let run = Run::completed(model);
+    let [.., before, last] = &run.states[..] else {
+        panic!("no increment");
+    };
+    let context = StepContext::new(&run.problem, 0, &run.states[0]);
+    let mut whole = Whole::new(&context, before, last);
+    whole.let_slip(SlipFreedom::Driven);
+    let (residual, _) = whole.assembled(&whole.unknowns());
+    assert!(residual.norm() < 1e-9);
+    whole.assert_order();
 }
 
 /// Two blocks that are held and loaded in all ways.

@@ -4,7 +4,7 @@ use nalgebra::DVector;
 use striae_condensed::{Growth, Partition, Tangent};
 use striae_contact::{
     complementarity::Iteration, segment::Derivatives, selection::Selection, side::Side,
-    unknowns::Status,
+    slip_freedom::SlipFreedom, unknowns::Status,
 };
 use striae_solve::{
     assembly::{
@@ -46,6 +46,13 @@ impl<'a> Whole<'a> {
             partition: partition.grown(&Growth::from_iter([every])).unwrap(),
             before,
             state,
+        }
+    }
+
+    /// Gives all kept nodes a freedom to slip; without it they have a plane.
+    pub fn let_slip(&mut self, freedom: SlipFreedom) {
+        for selection in &mut self.selections {
+            selection.slip_freedoms = vec![freedom; selection.kept().len()];
         }
     }
 
