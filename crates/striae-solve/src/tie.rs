@@ -1,6 +1,7 @@
 //! Ties: surfaces of bodies that are glued from the start, by nodes that follow others.
 //!
-//! On one side of a tie, the one with the finer facets, nodes `s` follow those of the other side
+//! On one side of a tie, the one with the finer facets unless more of them would have every
+//! corner prescribed in a component, nodes `s` follow those of the other side
 //! with constant weights, in every component where they are not prescribed,
 //!
 //! ```text

@@ -66,6 +66,19 @@ pub enum TieFault {
         /// Reason.
         reason: &'static str,
     },
+    /// Areas that neither side can tie in a component.
+    #[error(
+        "tie `{tie}`: over {:.1} % of its area displacements along {axis} are prescribed on every node of one side, elsewhere on every node of the other side, so nothing could hold the two together along {axis}. Prescribe displacements on one of the two bodies only, or split the tie into one for each of these areas",
+        100.0 * share
+    )]
+    Prescribed {
+        /// The tie.
+        tie: String,
+        /// Component.
+        axis: &'static str,
+        /// Share of the tied area.
+        share: f64,
+    },
     /// Ties that follow each other in a circle.
     #[error(
         "ties {} depend on each other in a cycle where they meet, and their equations are redundant; make one of the surfaces finer than the two it meets, or leave the facets at the common edge out of one tie",
@@ -100,6 +113,7 @@ impl TieFault {
             | Self::Nothing { tie, .. }
             | Self::Apart { tie, .. }
             | Self::Loose { tie, .. }
+            | Self::Prescribed { tie, .. }
             | Self::Inverted { tie, .. } => tie,
             Self::Circle { ties } => ties.first().map_or("", String::as_str),
         }

@@ -135,6 +135,45 @@ impl Sides {
             .collect()
     }
 
+    /// Makes the other side the one that follows where fewer of the tied areas are lost then;
+    /// returns a fault where some still are.
+    fn turn(&mut self, tie: &str, bound: &Bound) -> Option<TieFault> {
+        let other = self.follows.opposite();
+        let [own, opposite] = [self.follows, other].map(|side| self.lost(side, bound));
+        let none_follows = self.candidates(self.follows, bound).is_empty();
+        let (axis, share) = if none_follows || worst(&own).1 > worst(&opposite).1 {
+            self.follows = other;
+            worst(&opposite)
+        } else {
+            worst(&own)
+        };
+        (share > SAME).then(|| TieFault::Prescribed {
+            tie: tie.to_owned(),
+            axis: ["x", "y", "z"][axis],
+            share,
+        })
+    }
+
+    /// Shares of the tied area, by component, that a side could not tie: no corner of its facets
+    /// may follow, while nodes opposite are not prescribed.
+    fn lost(&self, side: Side, bound: &Bound) -> [f64; 3] {
+        let share = |axis: usize| {
+            let facets = self.facets[side].iter().filter(|facet| {
+                let mut corners = facet.corners.iter();
+                corners.all(|&corner| bound.component(self.own(side, corner), axis))
+            });
+            let free = facets
+                .flat_map(|facet| &facet.opposite)
+                .filter(|(node, _)| {
+                    let opposite = self.own(side.opposite(), **node);
+                    !bound.component(opposite, axis)
+                });
+            let area: f64 = free.map(|(_, row)| row.iter().sum::<f64>()).sum();
+            area / self.joined.area()
+        };
+        [0, 1, 2].map(share)
+    }
+
     /// Global node of a node of the side that follows.
     fn own(&self, side: Side, node: SurfaceNode) -> GlobalNode {
         self.nodes[side][node]
@@ -188,6 +227,18 @@ impl Bound {
     }
 }
 
+/// Component with the largest share, and the share.
+fn worst(shares: &[f64; 3]) -> (usize, f64) {
+    let first = (0, shares[0]);
+    let others = shares.iter().copied().enumerate();
+    others.fold(
+        first,
+        |most, other| {
+            if other.1 > most.1 { other } else { most }
+        },
+    )
+}
+
 /// The rows of all nodes that follow; their `weights` are still to be found.
 pub(super) fn rows(
     model: &Model,
@@ -195,13 +246,12 @@ pub(super) fn rows(
     sides: &mut [Sides],
 ) -> Result<Vec<Follower>, Vec<TieFault>> {
     let bound = Bound::new(model, first_node);
-    for of_tie in &mut *sides {
-        if of_tie.candidates(of_tie.follows, &bound).is_empty() {
-            of_tie.follows = of_tie.follows.opposite();
-        }
+    let mut faults = Vec::new();
+    for (of_tie, tie) in sides.iter_mut().zip(&model.ties) {
+        faults.extend(of_tie.turn(&tie.name, &bound));
     }
     let owner = owners(sides, &bound);
-    let (mut all, mut faults) = (Vec::new(), Vec::new());
+    let mut all = Vec::new();
     for (tie, of_tie) in sides.iter_mut().enumerate() {
         let follows = |node: GlobalNode| owner.get(&node) == Some(&tie);
         let keeps = |node: GlobalNode, axis: usize| follows(node) && !bound.component(node, axis);

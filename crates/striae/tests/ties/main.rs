@@ -7,6 +7,7 @@ mod meeting;
 mod motion;
 mod order;
 mod patch;
+mod prescribed;
 mod scene;
 mod swap;
 mod tractions;
