@@ -84,6 +84,8 @@ pub struct Joint {
     facets: [Vec<[NodeId; 4]>; 2],
     /// Tied areas, by facet of the dependent side.
     patches: Vec<Patch>,
+    /// Nodes of both sides that cannot move past the other one, ascending.
+    glued: [Vec<GlobalNode>; 2],
 }
 
 /// All ties of a model.
@@ -186,6 +188,18 @@ impl Ties {
     /// The surface of a side of a tie, in nodes of the mesh of its body.
     pub fn surface(&self, tie: usize, side: Side) -> Surface {
         Surface::new(&self.joints[tie].facets[side])
+    }
+
+    /// Returns whether a tie holds a node of a body to another body, so that it cannot move past it.
+    pub(crate) fn glues(&self, node: GlobalNode, bodies: [usize; 2]) -> bool {
+        self.joints.iter().any(|joint| {
+            let side = match joint.bodies {
+                found if found == bodies => Side::A,
+                [b, a] if [a, b] == bodies => Side::B,
+                _ => return false,
+            };
+            joint.glued[side].binary_search(&node).is_ok()
+        })
     }
 
     /// Returns whether a body has a side in a tie.

@@ -1,9 +1,12 @@
-//! Nodes of contact surfaces that follow others on the same floor.
+//! Nodes of contact surfaces whose ties determine how they move past what they face.
+//!
+//! On the border of a tie, facets of the same two bodies that are not tied may be a pair. What is
+//! glued there to the other side has no gap and no slip of its own.
 //!
 //! If two tied bodies rest on a third, the gap of a dependent node follows from the nodes that it
 //! depends on. If these touch the same opponent, a row of its own would repeat theirs, and its
-//! pressure would not be determined; so it is no candidate for one and carries what its neighbours
-//! have.
+//! pressure would not be determined. Such nodes are no candidates for one and carry what their
+//! neighbours have.
 
 use striae_contact::side::Side;
 
@@ -62,8 +65,14 @@ pub(super) fn shadowed(
     let of_pair = |pair: &PairGeometry| {
         Side::BOTH.map(|side| {
             let opponent = opponent(pair, side);
+            let is_glued = |node: GlobalNode| match (pair.bodies[side], opponent.0) {
+                (Some(own), Some(other)) => ties.glues(node, [own, other]),
+                _ => false,
+            };
             let nodes = of_side(pair, side).into_iter();
-            nodes.map(|node| is_shadowed(node, &opponent)).collect()
+            nodes
+                .map(|node| is_shadowed(node, &opponent) || is_glued(node))
+                .collect()
         })
     };
     pairs.iter().map(of_pair).collect()

@@ -62,9 +62,13 @@ fn renumbered(
     let nodes = joint
         .nodes
         .map(|nodes| nodes.into_iter().map(&number).collect());
+    let glued = joint
+        .glued
+        .map(|nodes| nodes.into_iter().map(&number).collect());
     let patches = joint.patches.into_iter();
     Joint {
         nodes,
+        glued,
         facets,
         patches: patches.map(|patch| patch.renumbered(&number)).collect(),
         ..joint

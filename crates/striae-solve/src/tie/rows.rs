@@ -18,6 +18,8 @@ use crate::node::GlobalNode;
 
 /// Covered part of the best covered facet at a node below which it does not follow.
 const LEAST_COVER: f64 = 0.3;
+/// Covered part of a facet that is all of it.
+const WHOLE: f64 = 0.999;
 /// Weights that are round-off.
 const ROUND_OFF: f64 = 1e-12;
 /// Relative difference of weights of rows that counts as zero.
@@ -36,6 +38,8 @@ pub(super) struct Sides {
     facets: [Vec<FacetRows>; 2],
     /// Tied areas.
     patches: Vec<Patch>,
+    /// Nodes that cannot move past the other side.
+    glued: [Vec<GlobalNode>; 2],
 }
 
 /// Restraint of each component of each node.
@@ -103,6 +107,7 @@ impl Sides {
             facets: Side::BOTH.map(|side| joined.rows(&configuration, side)),
             joined,
             patches: Vec::new(),
+            glued: [Vec::new(), Vec::new()],
         })
     }
 
@@ -123,7 +128,29 @@ impl Sides {
             nodes: self.nodes,
             facets: self.corners,
             patches: self.patches,
+            glued: self.glued,
         }
+    }
+
+    /// Nodes of both sides that cannot move past the other one: those that follow, and corners of
+    /// facets opposite that are covered wholly. Ascending.
+    fn glued(&self, follows: impl Fn(GlobalNode) -> bool) -> [Vec<GlobalNode>; 2] {
+        Side::BOTH.map(|side| {
+            let facets = self.facets[side].iter();
+            let corners = facets.flat_map(|facet| facet.corners.iter().zip(&facet.cover));
+            let glued = corners.filter_map(|(&corner, &cover)| {
+                let node = self.own(side, corner);
+                let held = match side == self.follows {
+                    true => follows(node),
+                    false => cover >= WHOLE,
+                };
+                held.then_some(node)
+            });
+            let mut glued: Vec<GlobalNode> = glued.collect();
+            glued.sort_unstable();
+            glued.dedup();
+            glued
+        })
     }
 
     /// Tied areas, for nodes that keep rows of components.
@@ -270,6 +297,7 @@ pub(super) fn rows(
                 },
             });
         }
+        of_tie.glued = of_tie.glued(|node| found.contains_key(&node));
         of_tie.patches = of_tie.patches(keeps);
         all.extend(found.into_iter().map(|(node, row)| Follower {
             tie,

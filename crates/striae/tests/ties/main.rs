@@ -1,5 +1,6 @@
 //! Ties of surfaces whose meshes do not match.
 
+mod borders;
 mod dynamics;
 mod faults;
 mod floor;
