@@ -46,8 +46,12 @@ pub struct StepContext<'a> {
     pub(crate) turned: Turned<'a>,
     /// `true` for prescribed coordinates, of each rigid body.
     pub fixed_rigid: Vec<[bool; 6]>,
-    /// `fixed` by pair, side and surface node, with nodes that follow only such nodes, or nodes
-    /// that touch the same opponent.
+    /// `true` for position components whose motion is known beforehand: `fixed` ones, those of
+    /// nodes tied to rigid bodies that prescribed coordinates move along the component, and those
+    /// of nodes that follow only such nodes.
+    pub known: Vec<bool>,
+    /// `known` by pair, side and surface node, with nodes whose gap others determine: those that
+    /// follow nodes that touch the same opponent, or are glued to it.
     pub fixed_on_pair: Vec<Prescribed>,
     /// Offsets of the gaps of every pair: overlaps of the meshes that are removed in the step, and
     /// interferences.
@@ -108,13 +112,10 @@ impl<'a> StepContext<'a> {
         }
         let turned = Turned::new(problem, plan);
         turned.fix(&mut fixed);
-        let holds = |node: GlobalNode, axis: usize| match problem.ties.followed(node, axis) {
-            Some(followed) => followed.iter().all(|(node, _)| match turned.frame(*node) {
-                Some(frame) => frame.held() == 3,
-                None => fixed[node.component(axis)],
-            }),
-            None => fixed[node.component(axis)],
-        };
+        let fixed_rigid: Vec<[bool; 6]> = (plan.rigid.iter())
+            .map(|coordinates| coordinates.each_ref().map(Option::is_some))
+            .collect();
+        let known = known(problem, &fixed, &fixed_rigid, &turned);
         let components = |pair: usize| {
             Side::BOTH.map(|side| {
                 let surface = problem.pairs[pair].contact.sides[side].surface();
@@ -124,7 +125,7 @@ impl<'a> StepContext<'a> {
                     .flat_map(|node| {
                         let global = problem.surface_node(pair, side, node)?;
                         let own = shadowed.is_some_and(|nodes| nodes[node]);
-                        Some([0, 1, 2].map(|axis| own || holds(global, axis)))
+                        Some([0, 1, 2].map(|axis| own || known[global.component(axis)]))
                     })
                     .flatten()
                     .collect()
@@ -146,11 +147,8 @@ impl<'a> StepContext<'a> {
             index,
             plan,
             start,
-            fixed_rigid: plan
-                .rigid
-                .iter()
-                .map(|coordinates| coordinates.each_ref().map(Option::is_some))
-                .collect(),
+            fixed_rigid,
+            known,
             fixed,
             turned,
         };
@@ -207,13 +205,25 @@ impl<'a> StepContext<'a> {
         }
     }
 
-    /// Motions of all nodes from a state along what is prescribed; zero along what is free.
+    /// Motions of all nodes from a state along the components in which they are known; of no
+    /// meaning along others.
     pub(crate) fn imposed_motions(&self, state: &State, imposed: &Imposed) -> Vec<Vec3> {
         let mut motions = vec![Vec3::zeros(); state.positions.len()];
         for &(node, axis, position) in &imposed.positions {
             let way = position - self.along(node, axis, &state.positions[node]);
             motions[node.0] += self.axis(node, axis) * way;
         }
+        let bodies = self.problem.tied.iter().zip(&state.rigid).enumerate();
+        for (rigid, (nodes, pose)) in bodies {
+            let reference = &self.problem.model.rigid_surfaces[rigid].reference;
+            let now = pose.coordinates();
+            let end = std::array::from_fn(|at| imposed.rigid[rigid][at].unwrap_or(now[at]));
+            let end = pose.moved_to(&end).placement(reference);
+            for &node in nodes {
+                motions[node.0] = end.point(&self.problem.reference[node]) - state.positions[node];
+            }
+        }
+        self.problem.ties.follow(&mut motions);
         motions
     }
 
@@ -334,4 +344,36 @@ impl<'a> StepContext<'a> {
         };
         placed(self.problem, pair, &self.pairs[pair], at)
     }
+}
+
+/// Components whose motion is known beforehand, three a node.
+fn known(
+    problem: &Problem,
+    fixed: &[bool],
+    fixed_rigid: &[[bool; 6]],
+    turned: &Turned,
+) -> Vec<bool> {
+    let mut own = fixed.to_vec();
+    for (nodes, fixed) in problem.tied.iter().zip(fixed_rigid) {
+        // Turns about an axis move no point along it.
+        let [x, y, z] = [0, 1, 2].map(|axis| fixed[3 + axis]);
+        let turns = [y && z, z && x, x && y];
+        for node in nodes {
+            for axis in 0..3 {
+                own[node.component(axis)] = fixed[axis] && turns[axis];
+            }
+        }
+    }
+    let mut known = own.clone();
+    for follower in problem.ties.followers() {
+        for (axis, weights) in follower.weights.iter().enumerate() {
+            let Some(weights) = weights else { continue };
+            known[follower.node.component(axis)] =
+                weights.iter().all(|(node, _)| match turned.frame(*node) {
+                    Some(frame) => frame.held() == 3,
+                    None => own[node.component(axis)],
+                });
+        }
+    }
+    known
 }

@@ -206,8 +206,8 @@ fn movers(context: &StepContext, motions: &[Vec3], pair: usize, side: Side) -> V
         let node = SurfaceNode::new(node);
         let global = context.problem.surface_node(pair, side, node)?;
         let prescribed = [prescribed[0], prescribed[1], prescribed[2]];
-        // Nodes that follow others count as prescribed without a motion of their own.
-        let own = [0, 1, 2].map(|axis| context.fixed[global.component(axis)]);
+        // Nodes whose gap others determine count as prescribed without a motion of their own.
+        let own = [0, 1, 2].map(|axis| context.known[global.component(axis)]);
         Some(Mover {
             number: global.0 as u32,
             prescribed,
