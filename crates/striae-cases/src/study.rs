@@ -59,6 +59,8 @@ pub struct Study<'a> {
     pub left_out: Vec<&'static str>,
     /// Summaries of the runs that are judged, by name of the deck.
     pub summaries: Vec<(String, Summary)>,
+    /// Decks with collocated contact, whose forces on both sides are not in balance.
+    pub collocated: Vec<String>,
     interrupted: bool,
 }
 
@@ -82,6 +84,7 @@ impl<'a> Study<'a> {
             quantities: Vec::new(),
             left_out: Vec::new(),
             summaries: Vec::new(),
+            collocated: Vec::new(),
             interrupted: false,
         }
     }
@@ -108,6 +111,10 @@ impl<'a> Study<'a> {
 
     /// Runs a deck to its end; how Newton's method did is judged.
     pub fn run(&mut self, name: &str, deck: Deck) -> Result<Run, Failure> {
+        let mut pairs = deck.model.pairs.iter();
+        if pairs.any(|pair| pair.enforcement == Enforcement::Collocated) {
+            self.collocated.push(name.to_owned());
+        }
         let run = self.run_unjudged(name, deck)?;
         let summary = run.finished.summary.clone();
         self.summaries.push((name.to_owned(), summary));

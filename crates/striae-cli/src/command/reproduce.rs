@@ -16,7 +16,7 @@ use striae_cases::{
     CASES, Case, Failure as CaseFailure,
     study::{Extent, Runner, Study},
 };
-use striae_solve::model;
+use striae_solve::{model, warning::Kind};
 
 use super::run::{Common, Strictness};
 use crate::{
@@ -173,18 +173,42 @@ fn reproduced(
     }
     writeln!(out, "output in {}", folder.display())?;
     let mut passed = comparisons.iter().all(|c| c.verdict == Verdict::Pass);
-    for (deck, summary) in &study.summaries {
-        for warning in &summary.warnings {
-            writeln!(out, "warning: {deck}: {}", warning.text)?;
-            passed &= arguments.common.strictness() == Strictness::Lenient;
-        }
-    }
+    let strictness = arguments.common.strictness();
+    passed &= warned(&study, out)? == Warned::No || strictness == Strictness::Lenient;
     let is_judged = study.enforcement.is_none();
     Ok(if ran.is_ok() && (passed || !is_judged) {
         Verdict::Pass
     } else {
         Verdict::Fail
     })
+}
+
+/// Presence of warnings.
+#[derive(PartialEq)]
+enum Warned {
+    Yes,
+    No,
+}
+
+/// Prints the warnings of all runs; that collocated forces are not in balance is a note.
+fn warned(study: &Study, out: &mut dyn Write) -> Result<Warned, Failure> {
+    let balance = [Kind::Mismatch, Kind::Moment].map(Kind::name);
+    let mut warned = Warned::No;
+    for (deck, summary) in &study.summaries {
+        for warning in &summary.warnings {
+            if study.collocated.contains(deck) && balance.contains(&warning.kind.as_str()) {
+                writeln!(
+                    out,
+                    "note: {deck}: {}; the collocated method does not balance them",
+                    warning.text
+                )?;
+                continue;
+            }
+            writeln!(out, "warning: {deck}: {}", warning.text)?;
+            warned = Warned::Yes;
+        }
+    }
+    Ok(warned)
 }
 
 /// Comparisons of measured with known values, without those that this extent omits.
