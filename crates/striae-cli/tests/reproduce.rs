@@ -142,6 +142,21 @@ fn a_case_prints_its_table_and_writes_its_files() {
     assert_eq!(statuses, ["completed", "stopped"]);
 }
 
+/// The collocated run of the case is there to be compared, and does not balance by its method.
+#[test]
+fn a_case_with_a_collocated_run_ends_without_a_warning() {
+    let folder = tempfile::tempdir().unwrap();
+    let arguments = ["reproduce", "two-blocks", "--quick", "--strict"];
+    let output = striae(folder.path(), &arguments);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let said = stdout(&output);
+    assert!(!said.contains("warning"), "{said}");
+    assert!(
+        said.contains("note: collocated: pair `interface`"),
+        "{said}"
+    );
+}
+
 #[test]
 fn a_run_writes_what_it_says() {
     let folder = tempfile::tempdir().unwrap();
