@@ -11,7 +11,12 @@ use std::{
     time::{Duration, Instant},
 };
 
-use crate::{borders, cargo::cargo, fault::Fault, python};
+use crate::{
+    borders,
+    cargo::{self, cargo, release},
+    fault::Fault,
+    python,
+};
 
 /// A check that is one call of cargo.
 struct Stage {
@@ -89,13 +94,11 @@ fn examples() -> Result<(), Fault> {
         );
     }
     names.sort();
-    for name in &names {
-        cargo(
-            &["run", "--release", "-p", "striae", "--example", name],
-            &[],
-        )?;
-    }
-    Ok(())
+    cargo(&["build", "--release", "--workspace", "--examples"], &[])?;
+    let built = release().join("examples");
+    names
+        .iter()
+        .try_for_each(|name| cargo::run(&built.join(name), &[], &[]))
 }
 
 /// Runs the benchmarks with the given arguments.

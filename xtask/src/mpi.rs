@@ -30,19 +30,15 @@ use cases::Extent;
 
 /// A test target that runs under `mpirun`.
 struct Test {
-    package: &'static str,
     target: &'static str,
     features: &'static str,
 }
 
 /// In the profile of `cargo xtask check`, whose types it finds built.
-const LINTS: [&str; 12] = [
+const LINTS: [&str; 9] = [
     "clippy",
     "--release",
-    "-p",
-    "striae-petsc",
-    "-p",
-    "striae-cli",
+    "--workspace",
     "--all-targets",
     "--features",
     "striae-petsc/petsc,striae-cli/petsc",
@@ -51,9 +47,8 @@ const LINTS: [&str; 12] = [
     "warnings",
 ];
 const TESTS: [Test; 1] = [Test {
-    package: "striae-petsc",
-    target: "ranks",
-    features: "petsc",
+    target: "petsc-ranks",
+    features: "striae-petsc/petsc",
 }];
 /// Numbers of ranks.
 const RANKS: [usize; 4] = [1, 2, 3, 4];
@@ -110,8 +105,8 @@ pub fn check(options: &[String]) -> Result<(), Fault> {
     if !parts.iter().any(|part| part.is_of_program()) {
         return Ok(());
     }
-    let build = ["build", "--release", "-p", "striae-cli"];
-    cargo::cargo(&[&build[..], &["--features", "petsc"]].concat(), &[])?;
+    let features = ["--features", "striae-cli/petsc"];
+    cargo::cargo(&[&cargo::PROGRAM[..], &features].concat(), &[])?;
     let program = cargo::built();
     for part in parts {
         let started = Instant::now();
@@ -186,7 +181,7 @@ impl Test {
     fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new("cargo");
         command
-            .args(["test", "--release", "--package", self.package])
+            .args(["test", "--release", "--workspace"])
             .args(["--features", self.features, "--test", self.target])
             .args(arguments)
             .envs(ENVIRONMENT);

@@ -140,15 +140,5 @@ fn target() -> PathBuf {
 }
 
 fn run(program: PathBuf, arguments: &[&str]) -> Result<(), Fault> {
-    let command = format!("{} {}", program.display(), arguments.join(" "));
-    let status = Command::new(program).args(arguments).status();
-    let status = status.map_err(|cause| Fault::Start {
-        command: command.clone(),
-        cause,
-    })?;
-    if status.success() {
-        Ok(())
-    } else {
-        Err(Fault::Failed { command, status })
-    }
+    cargo::run(&program, arguments, &[])
 }
