@@ -96,6 +96,6 @@ pub enum CheckpointError {
     #[error("the new deck has no step after the completed ones")]
     NothingLeft,
     /// The files beside it are not those it was written with.
-    #[error("the output does not match the checkpoint: {0}")]
+    #[error(transparent)]
     Output(#[from] OutputError),
 }
