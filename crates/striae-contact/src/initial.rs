@@ -16,6 +16,7 @@ use crate::{
         Interference, Nearest, Spot, Stage, Standing, inside, nearest_of, normal_at, position,
         spots,
     },
+    sagitta,
     segment::FACING,
     side::Side,
 };
@@ -27,6 +28,9 @@ pub struct Fit {
     pub gap: Option<Opening>,
     /// The deepest overlap for its facet size.
     pub overlap: Option<Interference>,
+    /// Mean error of the overlap as facets are chords of curved surfaces, over the mean overlap
+    /// of the surfaces.
+    pub chords: f64,
     /// Distance of the sides where they are nearest, whatever faces what.
     pub distance: f64,
     /// Position of side `a` relative to a rigid side.
@@ -76,9 +80,14 @@ pub fn fit(stage: &Stage) -> Fit {
     let of_a = || seen.iter().filter(|seen| seen.opening.side == Side::A);
     let all_behind = of_a().all(|seen| seen.standing == Standing::Behind);
     let overlaps = inside(stage, 0.0).into_iter();
+    let overlap = overlaps.reduce(|a, b| if b.share() > a.share() { b } else { a });
+    let chords = overlap
+        .as_ref()
+        .map_or(0.0, |overlap| sagitta::share(stage, overlap.depth));
     Fit {
         gap: gaps.reduce(|a, b| if b.gap < a.gap { b } else { a }),
-        overlap: overlaps.reduce(|a, b| if b.share() > a.share() { b } else { a }),
+        overlap,
+        chords,
         distance: distances.fold(f64::INFINITY, f64::min),
         lies: if stage.configuration.pair.is_rigid() && all_behind && of_a().next().is_some() {
             Lies::Behind

@@ -32,6 +32,7 @@ mod projection;
 mod quadrature;
 mod quantity;
 mod ramp;
+mod sagitta;
 mod search;
 mod segment_rows;
 mod slip_rate;

@@ -7,7 +7,7 @@ use std::{f64::consts::PI, path::Path};
 use driven::last;
 use striae_contact::side::Side;
 use striae_deck::parse;
-use striae_solve::report::pairs;
+use striae_solve::{initial::fits, report::pairs};
 
 /// A solid shaft of radius 0.5 drawn with a radius of its own in a hub of twice the radius, in
 /// plane stress. `around` are the facets of the shaft, over 8, and those of the hub.
@@ -87,6 +87,27 @@ fn pressure_is_that_of_lame_whatever_the_meshes() {
                 );
             }
         }
+    }
+}
+
+/// Meshes that overlap by an interference of curved surfaces overlap by more or less where facets
+/// do not match: by two thirds of the difference of their sagittas in the mean, which falls with
+/// the square of their size.
+#[test]
+fn overlaps_of_chords_are_told() {
+    let keys = "initial = \"resolve\"";
+    let share = |around: [usize; 2]| {
+        let deck = shaft_in_hub(0.5 + INTERFERENCE, around, keys);
+        let model = parse(&deck, "deck.toml", Path::new("")).unwrap().model;
+        fits(&model)[0].as_ref().unwrap().chords
+    };
+    assert!(share([4, 32]) < 0.01);
+    let sagitta = |count: f64| 0.5 * (1.0 - (PI / count).cos());
+    for factor in [1, 2] {
+        let count = f64::from(8 * factor);
+        let expected = 2.0 / 3.0 * (sagitta(4.0 * count) - sagitta(5.0 * count)) / INTERFERENCE;
+        let found = share([4 * factor as usize, 40 * factor as usize]);
+        assert!((found / expected - 1.0).abs() < 0.1, "{found} {expected}");
     }
 }
 

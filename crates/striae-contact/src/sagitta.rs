@@ -1,0 +1,83 @@
+//! Error of overlaps of facets, which are chords of curved surfaces.
+//!
+//! Over a facet with the corners `x_i` and the normals `n_i` of the surface there, the surface that
+//! its chords stand for lies by
+//!
+//! ```text
+//! s = 1/2 sum_{i<j} N_i N_j (n_j - n_i) . (x_j - x_i)
+//! ```
+//!
+//! farther out: that is the sagitta `h^2/(8R)` in the middle of a chord, and zero at its ends. The
+//! surfaces of two facets then overlap by `-g + s_A + s_B`. Where facets match, what one of them
+//! lacks is what the other one has too much.
+
+use striae_mesh::Vec3;
+use striae_surface::normal::nodal_normals;
+
+use crate::{
+    interference::Stage,
+    pairing::{PairedFacets, Scope, compliances, paired_facets},
+    seating::AHEAD,
+    segment::SegmentDerivatives,
+    side::Side,
+};
+
+/// Angle between the normal of a facet and those at its corners from which on its edges are taken
+/// for edges of the body.
+const EDGE: f64 = 0.4;
+
+/// Mean of `|s_A + s_B|` over the mean overlap of the surfaces, where the sides of a pair overlap
+/// by up to `deepest`; infinite if only their facets do.
+pub(crate) fn share(stage: &Stage, deepest: f64) -> f64 {
+    let start = stage.configuration;
+    let compliances = compliances(start);
+    let scope = Scope {
+        compliances: &compliances,
+        depth: AHEAD * deepest,
+    };
+    let normals = start.sides.each_ref().map(|side| {
+        let normals = side
+            .as_ref()
+            .map(|side| nodal_normals(side.surface, &side.x));
+        normals.unwrap_or_default()
+    });
+    let none = |_: &[_]| SegmentDerivatives::None;
+    let (mut error, mut overlap) = (0.0, 0.0);
+    for paired in paired_facets(start, scope, &none, |_| true) {
+        let gap = paired.segment.area * paired.mean_gap(start);
+        let beyond: f64 = Side::BOTH
+            .map(|side| beyond(&paired, side, &normals[side]))
+            .iter()
+            .sum();
+        if gap.min(gap - beyond) < 0.0 {
+            error += beyond.abs();
+            overlap += (beyond - gap).max(0.0);
+        }
+    }
+    if error > 0.0 { error / overlap } else { 0.0 }
+}
+
+/// Integral of `s` of the facet of a side over its common segment with another one.
+fn beyond(paired: &PairedFacets, side: Side, normals: &[Vec3]) -> f64 {
+    if paired.facets[side].is_none() {
+        return 0.0;
+    }
+    let corners = paired.corners[side];
+    let [x, n] = [
+        std::array::from_fn::<_, 4, _>(|c| paired.x[4 * side.index() + c]),
+        corners.map(|node| normals[node]),
+    ];
+    let flat = (x[2] - x[0]).cross(&(x[3] - x[1]));
+    if n.iter().any(|n| n.angle(&flat) > EDGE) {
+        return 0.0;
+    }
+    let mass = &paired.segment.mass;
+    let first = 4 * side.index();
+    let mut sum = 0.0;
+    for i in 0..4 {
+        for j in i + 1..4 {
+            sum += mass[first + i][first + j] * (n[j] - n[i]).dot(&(x[j] - x[i]));
+        }
+    }
+    0.5 * sum
+}
