@@ -104,6 +104,7 @@ impl CommonField<'_> {
                 let area: f64 = (0..8).map(area).sum();
                 of_facet.friction += area * traction.friction;
             }
+            of_facet.pressed = patch.pressed.area;
             let own = &patch.pressed.force[4 * facet..][..4];
             of_facet.pressure = own.iter().sum();
             of_facet

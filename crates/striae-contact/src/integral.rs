@@ -11,6 +11,8 @@ pub struct FacetForces {
     pub force: [Vec3; 4],
     /// Area that belongs to each corner, `integral N_J da`.
     pub area: [f64; 4],
+    /// Area of the points under pressure.
+    pub pressed: f64,
     /// `integral p da`.
     pub pressure: f64,
     /// `integral |tau| da`.
@@ -24,6 +26,7 @@ impl FacetForces {
             self.force[corner] += other.force[corner];
             self.area[corner] += other.area[corner];
         }
+        self.pressed += other.pressed;
         self.pressure += other.pressure;
         self.friction += other.friction;
     }
@@ -66,6 +69,9 @@ impl Integral {
     ) {
         let area = w * density.area;
         sum.pressure += area * density.pressure;
+        if density.pressure > 0.0 {
+            sum.pressed += area;
+        }
         sum.friction += area * density.friction;
         for corner in 0..4 {
             self.force[corner] += density.force * (weights.value[corner] * w);

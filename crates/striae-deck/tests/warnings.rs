@@ -159,6 +159,7 @@ fn touching(problem: &Problem, time: f64, pressed: impl Fn(&Vec3) -> bool) -> St
     let of_facet = FacetForces {
         force: [Vec3::zeros(); 4],
         area: [area; 4],
+        pressed: 4.0 * area,
         pressure: 0.0,
         friction: 0.0,
     };

@@ -54,7 +54,7 @@ pub struct SideReport {
     pub friction: f64,
     /// Covered area.
     pub area: f64,
-    /// Area that belongs to nodes under pressure.
+    /// Area of the points under pressure.
     pub pressed: f64,
     /// Centre of pressure: `integral p x da` over that of `p`; zero without pressure.
     pub centre: Vec3,
@@ -253,11 +253,8 @@ fn side(problem: &Problem, state: &State, pair: usize, side: Side) -> SideReport
         sum.pressure += forces.pressure;
         sum.friction += forces.friction;
         sum.area += forces.area.iter().sum::<f64>();
+        sum.pressed += forces.pressed;
         let corners = &surface.facets()[facet.index()];
-        for (corner, area) in corners.iter().zip(&forces.area) {
-            let node = &state.pairs[pair].nodes[side][*corner];
-            sum.pressed += if node.pressure > 0.0 { *area } else { 0.0 };
-        }
         let n = normal_of(problem, state, (pair, side), corners);
         for (corner, force) in corners.iter().zip(&forces.force) {
             if let Some(node) = problem.surface_node(pair, side, *corner) {
