@@ -43,6 +43,7 @@ mod weighted;
 
 pub mod bedding;
 pub mod complementarity;
+pub mod component;
 pub mod configuration;
 pub mod converged_friction;
 pub mod directions;
@@ -56,6 +57,7 @@ pub mod interface;
 pub mod interference;
 pub mod opposite;
 pub mod pair;
+pub mod pair_state;
 pub mod placement;
 pub mod roles;
 pub mod seating;
