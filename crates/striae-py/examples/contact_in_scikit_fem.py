@@ -21,7 +21,7 @@ cells = np.vstack([lower.cells["hexahedron"], upper.cells["hexahedron"] + below]
 # scikit-fem counts the corners of a hexahedron in another order, and unknowns in one of its own.
 mesh = MeshHex(points.T, cells.T[[0, 4, 3, 1, 7, 5, 2, 6]])
 element = ElementVector(ElementHex1())
-numbers = Basis(mesh, element).nodal_dofs.T.ravel()
+numbers = np.asarray(Basis(mesh, element).nodal_dofs).T.ravel()
 stiffness = csr_array((points.size, points.size))
 for block, modulus in zip(np.split(np.arange(len(cells)), [len(lower.cells["hexahedron"])]), MODULI):
     basis = Basis(mesh, element, elements=block, intorder=3)
@@ -34,11 +34,9 @@ def elements(x: Floats) -> tuple[Floats, csr_array]:
     return (stiffness @ (x - points).ravel()).reshape(-1, 3), stiffness
 
 
-sides = [
-    st.contact.Surface(upper.facet_sets["zmin"] + below, youngs_modulus=MODULI[1]),
-    st.contact.Surface(lower.facet_sets["zmax"], youngs_modulus=MODULI[0]),
-]
-contact = st.contact.Contact(points, [st.contact.Pair(*sides, st.Coulomb(MU))])
+sole = st.contact.Surface(upper.facet_sets["zmin"] + below, youngs_modulus=MODULI[1])
+base = st.contact.Surface(lower.facet_sets["zmax"], youngs_modulus=MODULI[0])
+contact = st.contact.Contact(points, [st.contact.Pair(sole, base, st.Coulomb(MU))])
 held = np.zeros((len(points), 3), dtype=bool)
 top = upper.node_sets["zmax"] + below
 held[lower.node_sets["zmin"]] = held[top] = True
@@ -62,8 +60,8 @@ bodies = [
 ]
 pair = st.Pair(bodies[1]["zmin"], bodies[0]["zmax"], st.Coulomb(MU))
 model = st.Model(bodies, [], [pair], solver=st.Solver(tolerance=1e-12))
-base, press = bodies[0]["zmin"].displace(x=0, y=0, z=0), bodies[1]["zmax"].displace(x=0, y=0, z=-0.01)
-model.step("press", base, press, increments=PRESS)
+clamp, press = bodies[0]["zmin"].hold(), bodies[1]["zmax"].displace(x=0, y=0, z=-0.01)
+model.step("press", clamp, press, increments=PRESS)
 model.step("shear", bodies[1]["zmax"].displace(x=0.03), increments=SHEAR)
 own = np.array([one.pair(0).force for one in model.run()])
 difference = np.abs(own - forces).max() / np.abs(own).max()

@@ -52,7 +52,7 @@ def increment(
         found = begun.evaluate(x, tractions, after=found)
         internal, stiffness = elements(x)
         left = found.residual[: x.size] + internal.ravel()
-        rest = np.linalg.norm(left[free]) / max(np.linalg.norm(internal), 1e-300)
+        rest = float(np.linalg.norm(left[free])) / max(float(np.linalg.norm(internal)), 1e-300)
         converged = max(found.norm, rest) <= tolerance
         if (converged or found.number == 1) and len(begun.missed(found)):
             # Nodes that carry no traction yet have met the other side.
