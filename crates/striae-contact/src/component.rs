@@ -19,24 +19,25 @@
 //! displacements, whose increments are the same) there are `3 N + 3 K` unknowns and rows:
 //!
 //! ```text
-//! 3 I + c              x_I . e_c   -f_I . e_c                        to be added to f_int - f_ext
-//! 3 N + 3 k            p_k         (1/w_k) integral phi_k (g + s) = 0
-//! 3 N + 3 k + 1, 2     z_k         du_k = 0 where |y_k| <= varpi, else z_k - varpi y_k/|y_k| = 0
+//! row                  unknown     residual
+//! 3 I + c              x_I . e_c   -f_I . e_c                                to be added to f_int - f_ext
+//! 3 N + 3 k            p_k         (1/w_k) integral phi_k min(g, p_k/r_k)    p_k where it faces nothing
+//! 3 N + 3 k + 1, 2     z_k         du_k where |y_k| <= varpi, else z_k - varpi y_k/|y_k|
 //!
-//! f_I = +- integral N_I t da,    t = sum_k phi_k (-p_k n + R(n, n_k) tau_k)
-//! y_k = z_k + r_t K^-1 du_k,     varpi = varpi(p^_k, |du_k|/dt, ...) = mu p^_k for Coulomb
+//! f_I = +- integral N_I t,     t = -P n + sum_k phi_k R(n, n_k) tau_k,     P = sum_k phi_k max(0, p_k - r_k g)
+//! y_k = z_k + r_t K^-1 du_k,   varpi = mu P_k for Coulomb,   tau_k = -z_k where friction is isotropic
 //! ```
 //!
-//! `g` is the gap and `du` the slip since the last converged configuration; `s >= 0` is open where a
-//! point of the support does not touch, so that its pressure is zero there. `p^_k` is the mean
-//! pressure over the support. A node that faces nothing has `p_k = 0`, one without pressure
-//! `z_k = 0`. For isotropic friction `tau_k = -z_k`. `phi_k`, the kept nodes and their numbers
-//! hold for one increment; the rows are those of [`crate::complementarity`], the forces those of
-//! [`crate::evaluation`]. Both sides have the same traction, so their forces balance to round-off.
+//! `g` is the gap, `du` the slip since the last converged configuration, `P_k` the mean pressure
+//! over the support of `phi_k`, `w_k` the integral of `phi_k` and `r_k` a bedding, that is small
+//! where a support is closed. A node without pressure has the rows `z_k`. The kept nodes, and so the
+//! numbers of their unknowns, hold for one increment. Both sides have the same traction, so their
+//! forces balance to round-off. The rows are derived in [`crate::complementarity`],
+//! [`crate::segment`] and [`crate::evaluation`].
 //!
-//! The tangent is the derivative of all these rows by all these unknowns, as triplets (several of
-//! one place add up). It is not symmetric with friction, and has zeros on the diagonal: a direct
-//! solver with pivoting is needed.
+//! The tangent consists of triplets, of which several of one place add up. It is the derivative of
+//! the residual where the slip rows hold, and elsewhere their globalised derivative. It is not
+//! symmetric with friction, and has zeros on the diagonal: it takes a direct solver with pivoting.
 //!
 //! # First iteration
 //!

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import copy
 import pickle
+import re
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -161,6 +163,15 @@ def test_what_is_held_takes_friction_only_where_it_is_driven() -> None:
     friction = found.pair().force[:2]
     slip = np.array([0.01 - friction[0] / K, 0.02])
     np.testing.assert_allclose(friction, MU * K * D * slip / np.linalg.norm(slip), rtol=1e-9)
+
+
+def test_the_page_runs_as_it_is_printed(capsys: pytest.CaptureFixture[str]) -> None:
+    page = Path(__file__).parents[3] / "docs" / "book" / "how-to" / "own-elements.md"
+    (piece,) = re.findall(r"```python\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL)
+    names: dict[str, Any] = {}
+    exec(compile(piece, page.name, "exec"), names)
+    printed = [np.fromstring(line.strip("[]"), sep=" ") for line in capsys.readouterr().out.splitlines()]
+    np.testing.assert_allclose(printed, [[100, 0, 1e3], [200, 0, 1e3], [300, 0, 1e3]], atol=1e-6)
 
 
 def with_facets(facets: Any, **named: Any) -> Callable[[], Any]:

@@ -62,7 +62,7 @@ fn solved(
             residual[row] += k * (x[row / 3] - anchors[row / 3])[row % 3];
             tangent[(row, row)] += k;
         }
-        if found.number > 0 && found.norm < 1e-12 && residual.amax() < 1e-9 * K {
+        if found.number > 0 && found.norm < 1e-12 && residual.amax() < 1e-13 * K {
             return Ok((increment.accept(&found)?, found));
         }
         let change = tangent
