@@ -165,6 +165,46 @@ def test_what_is_held_takes_friction_only_where_it_is_driven() -> None:
     np.testing.assert_allclose(friction, MU * K * D * slip / np.linalg.norm(slip), rtol=1e-9)
 
 
+@pytest.mark.parametrize("law", [None, st.Coulomb(0.2)], ids=["frictionless", "friction"])
+def test_surfaces_of_two_pairs_share_nodes(law: st.Friction | None) -> None:
+    """A corner between a floor and a wall, on springs across them and soft ones along them."""
+    block = st.block(divisions=(2, 2, 2))
+    points, springs = block.points, np.full(block.points.shape, 1e-3)
+    pairs = []
+    for axis, (name, facets) in [(2, ("floor", "zmin")), (0, ("wall", "xmin"))]:
+        corners = block.facet_sets[facets]
+        np.add.at(springs[:, axis], corners.ravel(), 0.25 * K / len(corners))
+        plane = st.Plane(name, normal=np.eye(3)[axis])
+        pairs.append(Pair(Surface(corners, youngs_modulus=K), plane, law, name=name))
+    contact = Contact(points, pairs)
+    increment = contact.begin(
+        contact.untouched(), rigid={"floor": (0, 0, D), "wall": (2 * D, 0, 0)}
+    )
+    assert [one.pair for one in increment.kept] == [0] * 9 + [1] * 9
+    x, tractions = points, increment.tractions
+    found = increment.evaluate(x, tractions)
+    for _ in range(20):
+        tangent = np.zeros((increment.unknowns, increment.unknowns))
+        np.add.at(tangent, (found.rows, found.cols), found.values)
+        tangent[np.arange(x.size), np.arange(x.size)] += springs.ravel()
+        residual = np.array(found.residual)
+        residual[: x.size] += (springs * (x - points)).ravel()
+        change = np.linalg.solve(tangent, -residual)
+        x, tractions = x + change[: x.size].reshape(-1, 3), tractions + change[x.size :]
+        found = increment.evaluate(x, tractions, after=found)
+    left = found.residual[: x.size] + (springs * (x - points)).ravel()
+    assert max(found.norm, np.abs(left).max()) < 1e-11
+    floor, wall = found.pair("floor").force, found.pair("wall").force
+    np.testing.assert_allclose(floor + wall, (springs * (x - points)).sum(axis=0), atol=1e-11)
+    if law is None:
+        np.testing.assert_allclose([floor[2], wall[0]], [K * D, 2 * K * D], rtol=1e-4)
+        np.testing.assert_allclose([floor[0], wall[2]], 0.0, atol=1e-12)
+    else:
+        # The floor holds the pad against the wall, and the wall against the floor.
+        assert -0.2 * floor[2] <= floor[0] < 0.0
+        assert -0.2 * wall[0] <= wall[2] < 0.0
+
+
 def test_the_page_runs_as_it_is_printed(capsys: pytest.CaptureFixture[str]) -> None:
     page = Path(__file__).parents[3] / "docs" / "book" / "how-to" / "own-elements.md"
     (piece,) = re.findall(r"```python\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL)

@@ -2,7 +2,7 @@
 
 use std::{collections::BTreeSet, sync::Arc};
 
-use striae_law::friction::{Friction, RequiredTextures};
+use striae_law::friction::Friction;
 use striae_mesh::{NodeId, Vec3};
 use striae_surface::{
     normal::nodal_normals,
@@ -310,11 +310,9 @@ fn shared(a: &PairedSurface, b: &PairedSurface) -> Result<(), Faults> {
 /// Refuses friction without the textures that give it a direction, or with too many.
 fn textured(friction: &Friction, sides: [&PairedSurface; 2]) -> Result<(), Faults> {
     let found = sides.iter().filter(|side| side.texture.is_some()).count();
-    let required = match friction.required_textures() {
-        RequiredTextures::One if found != 1 => "one side",
-        RequiredTextures::Both if found != 2 => "both sides",
-        _ => return Ok(()),
-    };
-    let kind = FaultKind::Textures { required, found };
-    Err(Faults::one("friction", kind))
+    let unmet = friction.required_textures().unmet(found);
+    unmet.map_or(Ok(()), |required| {
+        let kind = FaultKind::Textures { required, found };
+        Err(Faults::one("friction", kind))
+    })
 }

@@ -74,8 +74,8 @@ impl Imposed {
                 return Err(Faults::one(place, FaultKind::Rotation));
             }
         }
-        if !(all.duration > 0.0) {
-            let value = all.duration;
+        let value = all.duration;
+        if value.is_nan() || value <= 0.0 {
             return Err(Faults::one("duration", FaultKind::NotPositive { value }));
         }
         Ok(all)

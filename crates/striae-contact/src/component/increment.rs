@@ -194,6 +194,9 @@ impl Increment {
 
     /// Nodes without a share in the tractions that have met the other surface. An increment that
     /// misses some is solved again with them, see [`Self::reselected`].
+    ///
+    /// # Errors
+    /// When the evaluation is one of another increment.
     pub fn missed(&self, evaluated: &Evaluated) -> Result<Vec<NodeId>, Faults> {
         self.own(evaluated, "evaluated")?;
         let mut missed = Vec::new();

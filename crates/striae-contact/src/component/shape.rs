@@ -66,7 +66,8 @@ pub(super) fn areas(surface: &Surface, x: &[Vec3]) -> Result<(), FaultKind> {
         };
         let longest = places.iter().map(|x| (x - a).norm_squared());
         let longest = longest.fold((d - b).norm_squared(), f64::max);
-        if !(normal.norm() > FLAT * longest) {
+        let has_area = normal.norm() > FLAT * longest;
+        if !has_area {
             return Err(FaultKind::Degenerate { facet });
         }
         let ring = distinct_corners(corners);
@@ -78,9 +79,8 @@ pub(super) fn areas(surface: &Surface, x: &[Vec3]) -> Result<(), FaultKind> {
             sums[node.index()].1 += own.norm();
         }
     }
-    let folded = sums
-        .iter()
-        .position(|(sum, size)| !(sum.norm() > FLAT * size));
+    let agrees = |(sum, size): &(Vec3, f64)| sum.norm() > FLAT * size;
+    let folded = sums.iter().position(|sums| !agrees(sums));
     folded.map_or(Ok(()), |node| {
         let node = surface.nodes()[SurfaceNode::new(node).index()];
         Err(FaultKind::Folded { node })
