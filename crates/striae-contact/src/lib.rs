@@ -5,6 +5,8 @@
 //! [`evaluation::evaluate`] turns positions and traction unknowns into local terms of the
 //! residual and its tangent. Nothing here knows of sparse matrices or iterates globally.
 //!
+//! Other finite-element programs use [`component`], which wraps these steps.
+//!
 //! The method is unbiased: neither side is master or slave. By default both sides share one
 //! traction field on their common segments, and every point of them decides whether it touches;
 //! the collocated fields of Jones & Papadopoulos, "Simulating anisotropic frictional
