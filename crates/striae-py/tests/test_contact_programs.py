@@ -52,7 +52,7 @@ def body(name: str, mesh: st.Mesh) -> st.Body:
 
 
 def own_forces(model: st.Model, steps: list[list[st.Condition]]) -> Any:
-    """The same of striae's own run."""
+    """Forces on the first sides in every increment of a run of striae."""
     for number, conditions in enumerate(steps):
         model.step(f"step {number}", *conditions, increments=1)
     return np.array([[pair.force for pair in one.pairs] for one in model.run()])
