@@ -41,9 +41,10 @@ def says_more(member: object) -> bool:
 def written() -> str:
     """The whole page."""
     parts = [HEAD]
-    for name in sorted(st.__all__, key=str.lower):
-        thing = getattr(st, name)
-        if not (inspect.isclass(thing) or callable(thing)):
+    named = [(name, getattr(st, name)) for name in st.__all__]
+    named += [(f"contact.{name}", getattr(st.contact, name)) for name in st.contact.__all__]
+    for name, thing in sorted(named, key=lambda one: one[0].lower()):
+        if not (inspect.isclass(thing) or callable(thing) or inspect.ismodule(thing)):
             continue
         parts.append(f"## {name}\n")
         parts.append(quoted(thing))

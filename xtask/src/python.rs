@@ -20,8 +20,19 @@ const OLDEST: u32 = 10;
 const NEWEST: u32 = 19;
 /// Query to an interpreter: prints its version if it can make virtual environments.
 const ASKED: &str = "import sys, venv, ensurepip; print(sys.version_info[1])";
-/// Packages that the tests need besides the wheel.
-const NEEDED: [&str; 5] = ["pytest", "numpy", "matplotlib", "pandas", "meshio"];
+/// Packages that the tests need besides the wheel: the last ones are finite-element programs to
+/// which examples give contact.
+const NEEDED: [&str; 9] = [
+    "pytest",
+    "numpy",
+    "matplotlib",
+    "pandas",
+    "meshio",
+    "scipy",
+    "scikit-fem",
+    "felupe",
+    "jax",
+];
 
 /// Builds the wheel and tests it.
 ///

@@ -5,6 +5,8 @@
 //! [`evaluation::evaluate`] turns positions and traction unknowns into local terms of the
 //! residual and its tangent. Nothing here knows of sparse matrices or iterates globally.
 //!
+//! Other finite-element programs use [`component`], which wraps these steps.
+//!
 //! The method is unbiased: neither side is master or slave. By default both sides share one
 //! traction field on their common segments, and every point of them decides whether it touches;
 //! the collocated fields of Jones & Papadopoulos, "Simulating anisotropic frictional
@@ -44,6 +46,7 @@ mod weighted;
 
 pub mod bedding;
 pub mod complementarity;
+pub mod component;
 pub mod configuration;
 pub mod converged_friction;
 pub mod directions;
@@ -57,6 +60,7 @@ pub mod interface;
 pub mod interference;
 pub mod opposite;
 pub mod pair;
+pub mod pair_state;
 pub mod placement;
 pub mod roles;
 pub mod seating;

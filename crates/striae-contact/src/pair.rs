@@ -8,7 +8,11 @@ use striae_surface::{
     topology::{Surface, distinct_corners},
 };
 
-use crate::{side::Side, unknown::Numbering};
+use crate::{side::Side, unknown::Numbering, unknowns::NodeResult};
+
+/// Pressure over the softer modulus below which pressures are not told from zero: without it
+/// contact that just closes or has just opened would never be found.
+const SMALLEST_PRESSURE: f64 = 1e-4;
 
 /// Two surfaces that may touch. Side 0 (`a`) is deformable.
 #[derive(Clone, Debug)]
@@ -114,6 +118,14 @@ impl ContactPair {
             Geometry::Deformable(surface) => surface.nodes().len(),
             Geometry::Rigid(_) | Geometry::Itself | Geometry::Plane { .. } => 0,
         })
+    }
+
+    /// Stress over which residuals of traction rows count: the largest pressure of the nodes.
+    pub fn stress_scale(&self, nodes: &[Vec<NodeResult>; 2]) -> f64 {
+        let modulus = self.sides[0].stiffness.min(self.sides[1].stiffness);
+        let nodes = nodes.iter().flatten();
+        let pressure = nodes.map(|node| node.pressure.abs()).fold(0.0, f64::max);
+        pressure.max(SMALLEST_PRESSURE * modulus)
     }
 
     /// Returns whether the nodes of a side are deformable.

@@ -1,11 +1,12 @@
 //! Placement of a rigid side: `x = R X + s` for the point `X` of its reference configuration.
 
 use nalgebra::{Matrix3, Vector3};
+use serde::{Deserialize, Serialize};
 use striae_mesh::Vec3;
 use striae_surface::scalar::{Real, constant3};
 
 /// A rigid motion from the reference configuration.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Placement {
     /// Rotation `R`.
     pub rotation: Matrix3<f64>,

@@ -7,6 +7,7 @@
 
 mod array;
 mod cells;
+mod component;
 mod declared;
 mod everything;
 mod fault;
@@ -24,6 +25,7 @@ mod raised;
 mod results;
 mod rigid;
 mod run;
+mod side;
 mod start;
 mod step;
 mod texture;
@@ -36,6 +38,7 @@ use pyo3::prelude::*;
 mod _striae {
     #[pymodule_export]
     use super::{
+        component::{Contact, Evaluation, Increment, MeshPair, MeshSurface, State},
         declared::declared_laws,
         everything::Everything,
         fit::{fit_friction, measurements_of},

@@ -6,16 +6,12 @@ use numpy::{PyArray1, PyArray3, PyArrayMethods};
 use pyo3::{exceptions::PyValueError, prelude::*, types::PyDict};
 use striae::{
     PairSide,
-    contact::unknowns::{NodeResult, Status},
     element::von_mises,
-    mesh::{NodeId, Vec3},
+    mesh::Vec3,
     solve::{drive::Progress, problem::Problem, state::State},
 };
 
-use crate::{
-    array::{node_array, node_rows, rows},
-    cells::by_kind,
-};
+use crate::{array::rows, cells::by_kind, side::OfSide};
 
 /// A converged state that is kept.
 #[derive(Debug)]
@@ -131,50 +127,23 @@ impl Results {
     fn side<'py>(&self, py: Python<'py>, pair: usize, b: bool) -> PyResult<Bound<'py, PyDict>> {
         let side = if b { PairSide::B } else { PairSide::A };
         let results = self.results();
-        let all = PyDict::new(py);
         let name = &self.problem.model.pairs[pair].name;
         let (Some(nodes), Some(known)) = (
             results.surface_nodes(name, side),
             results.contact(name, side),
         ) else {
-            return Ok(all);
-        };
-        let vectors = |value: fn(&NodeResult) -> Vec3| {
-            rows(py, known.iter().map(move |node| value(node).into()))
-        };
-        let numbers = |value: fn(&NodeResult) -> f64| {
-            PyArray1::from_vec(py, known.iter().map(value).collect())
+            return Ok(PyDict::new(py));
         };
         let body = self.problem.pairs[pair].bodies[side as usize];
         let first = body.map_or(0, |body| self.problem.first_node[body]);
         let positions = &self.kept.state.positions;
-        let at = nodes
-            .iter()
-            .map(|node| positions[first + node.index()].into());
-        let contact = &self.problem.pairs[pair].contact;
-        let facets = contact.sides[side as usize]
-            .surface()
-            .map_or(&[][..], |s| s.facets());
-        let corners = facets.iter().map(|facet| facet.map(|node| NodeId(node.0)));
-        all.set_item("nodes", node_array(py, nodes))?;
-        all.set_item("facets", node_rows(py, corners)?)?;
-        all.set_item("position", rows(py, at)?)?;
-        all.set_item("gap", numbers(|node| node.gap))?;
-        all.set_item("pressure", numbers(|node| node.pressure))?;
-        all.set_item("mean_pressure", numbers(NodeResult::mean_pressure))?;
-        all.set_item("friction", vectors(|node| node.tau)?)?;
-        all.set_item("traction", vectors(traction)?)?;
-        all.set_item("mean_traction", vectors(|node| node.mean)?)?;
-        all.set_item("slip", vectors(|node| node.slip)?)?;
-        all.set_item("normal", vectors(|node| node.normal)?)?;
-        all.set_item("texture", vectors(|node| node.texture)?)?;
-        let status = known.iter().map(|node| match node.status {
-            Status::Open => 0_i8,
-            Status::Stick => 1,
-            Status::Slip => 2,
-        });
-        all.set_item("status", PyArray1::from_vec(py, status.collect()))?;
-        Ok(all)
+        let of_side = OfSide {
+            nodes,
+            facets: self.problem.pairs[pair].contact.sides[side as usize].surface(),
+            positions: &positions[first..],
+            known,
+        };
+        of_side.arrays(py)
     }
 
     /// Index of the body of a side of a pair.
@@ -240,9 +209,4 @@ impl Results {
     fn results(&self) -> striae::Results<'_> {
         striae::Results::new(&self.problem, &self.kept.state)
     }
-}
-
-/// Traction on the surface that carries the node, `-p n + tau`.
-fn traction(node: &NodeResult) -> Vec3 {
-    node.tau - node.normal * node.pressure
 }

@@ -22,10 +22,17 @@ UNIT = re.compile(
 )
 
 
+def named() -> Iterator[tuple[str, object]]:
+    """All public names, and those of the module of contact."""
+    for name in st.__all__:
+        yield name, getattr(st, name)
+    for name in st.contact.__all__:
+        yield f"contact.{name}", getattr(st.contact, name)
+
+
 def public() -> Iterator[tuple[str, object]]:
     """All public names, and those in classes."""
-    for name in st.__all__:
-        thing = getattr(st, name)
+    for name, thing in named():
         yield name, thing
         if inspect.isclass(thing):
             for part, member in vars(thing).items():
@@ -91,8 +98,8 @@ def test_the_example_of_the_docstring_holds() -> None:
 
 
 def test_hints_resolve() -> None:
-    for name in ("Body", "Model", "Pair", "Step"):
-        init = getattr(st, name).__init__
+    classes = [st.Body, st.Model, st.Pair, st.Step, st.contact.Contact, st.contact.Pair]
+    for init in (one.__init__ for one in classes):
         module = inspect.getmodule(init)
         assert module is not None
         typing.get_type_hints(init, vars(module))

@@ -1,12 +1,8 @@
 //! The state of a simulation at the end of an increment.
 
 use serde::{Deserialize, Serialize};
-use striae_contact::{
-    field::FacetForces,
-    selection::Kept,
-    unknowns::{NodeResult, Tractions},
-};
-use striae_mesh::{FacetId, Vec3};
+use striae_contact::pair_state::PairState;
+use striae_mesh::Vec3;
 
 use crate::{
     actuation::Actuations,
@@ -41,23 +37,6 @@ pub struct State {
     pub energies: Energies,
     /// Energy that contact has made beyond what friction takes, at least.
     pub gained: f64,
-}
-
-/// State of a contact pair.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct PairState {
-    /// Traction unknowns.
-    pub tractions: Tractions,
-    /// Nodes that were kept in the increment that led to this state.
-    pub kept: Kept,
-    /// Pressure and components of `-tau` along the nodal tangents of all nodes, by side.
-    pub carried: [Vec<[f64; 3]>; 2],
-    /// Results at every surface node, by side.
-    pub nodes: [Vec<NodeResult>; 2],
-    /// Forces on the facets in contact, by side.
-    pub facets: [Vec<(FacetId, FacetForces)>; 2],
-    /// Work dissipated by friction since the start.
-    pub dissipated: f64,
 }
 
 /// Forces on all global nodes.
@@ -174,20 +153,6 @@ impl State {
             forces: NodalForces::zero(problem.reference.len(), problem.model.rigid_surfaces.len()),
             energies: Energies::default(),
             gained: 0.0,
-        }
-    }
-}
-
-impl PairState {
-    fn untouched(pair: &striae_contact::pair::ContactPair) -> Self {
-        let counts = pair.carriers();
-        Self {
-            tractions: Tractions::zero(counts),
-            kept: counts.map(|count| vec![false; count]),
-            carried: counts.map(|count| vec![[0.0; 3]; count]),
-            nodes: counts.map(|count| vec![NodeResult::default(); count]),
-            facets: [Vec::new(), Vec::new()],
-            dissipated: 0.0,
         }
     }
 }

@@ -225,7 +225,7 @@ const LADDER: &[Row] = &[
     Row {
         name: "striae-py",
         own: &["striae", "striae-report"],
-        outside: &["nalgebra", "numpy", "pyo3", "rayon"],
+        outside: &["nalgebra", "numpy", "postcard", "pyo3", "rayon"],
     },
     Row {
         name: "striae-bench",

@@ -149,6 +149,17 @@ pub enum RequiredTextures {
     Both,
 }
 
+impl RequiredTextures {
+    /// Surfaces that must carry a texture, where another number of them does.
+    pub fn unmet(self, found: usize) -> Option<&'static str> {
+        match self {
+            Self::One if found != 1 => Some("one side"),
+            Self::Both if found != 2 => Some("both sides"),
+            Self::Any | Self::One | Self::Both => None,
+        }
+    }
+}
+
 impl Friction {
     /// A law from outside the crate, scaled with the coefficient `mu`; see [`FrictionLaw`].
     ///

@@ -311,6 +311,11 @@ impl RigidBuilder {
         self
     }
 
+    /// Its shape.
+    pub fn shape(&self) -> &RigidShape {
+        &self.surface.shape
+    }
+
     pub(super) fn name(&self) -> &str {
         &self.surface.name
     }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use striae_law::friction::{Friction, RequiredTextures};
+use striae_law::friction::Friction;
 use striae_mesh::Face;
 use striae_solve::model::{ContactSurface, Enforcement, Initial, Pair, Procedure, RigidShape};
 use striae_surface::texture::Paint;
@@ -92,11 +92,7 @@ pub(super) fn textures(pair: &Pair, friction: &Friction) -> Option<FaultKind> {
         (true, [Some(_), _]) => 2,
         (_, textures) => textures.iter().flatten().count(),
     };
-    let required = match friction.required_textures() {
-        RequiredTextures::One if found != 1 => "one side",
-        RequiredTextures::Both if found != 2 => "both sides",
-        _ => return None,
-    };
+    let required = friction.required_textures().unmet(found)?;
     Some(FaultKind::Textures {
         pair: pair.name.clone(),
         required,

@@ -19,6 +19,7 @@ Quantities are in one consistent system of units of your choice, for instance m,
 docstrings say what each is. Angles are in degrees. Nodes count from 0.
 """
 
+from . import contact
 from ._axes import CylindricalAxes, NormalAxis
 from ._body import Body, BodySet
 from ._course import Course
@@ -156,6 +157,7 @@ __all__ = [
     "annulus",
     "block",
     "capped_block",
+    "contact",
     "cylinder",
     "differentiate",
     "fit_friction",

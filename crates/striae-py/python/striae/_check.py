@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal, Optional, Protocol, TypeAlias, TypeVar, Union
 
 import numpy as np
@@ -84,6 +84,20 @@ def indices(value: Any, columns: int, path: str) -> Ints:
             path, f"an array of shape (n, {columns}) is needed, but it has shape {found.shape}"
         )
     return found
+
+
+def facets(cells: Mapping[str, Any], path: str) -> Ints:
+    """Corners of triangles and quadrilaterals, of shape (n, 4)."""
+    found = []
+    for kind, columns in [("triangle", 3), ("quad", 4)]:
+        if kind in cells:
+            corners = indices(cells[kind], columns, kind)
+            # A triangle repeats its last corner.
+            found.append(corners if columns == 4 else corners[:, [0, 1, 2, 2]])
+    other = [kind for kind in cells if kind not in ("triangle", "quad")]
+    if other or not found:
+        raise refuse(path, f"`triangle` and `quad` are supported, but there is {list(cells)}")
+    return np.ascontiguousarray(np.concatenate(found))
 
 
 def integers(value: Any, path: str) -> Ints:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from enum import IntEnum
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Union
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Protocol, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -122,10 +122,16 @@ class BodyResults:
         return f"<results of body {self.name!r}>"
 
 
+class Sided(Protocol):
+    """Results by sides of pairs."""
+
+    def side(self, pair: int, b: bool) -> dict[str, npt.NDArray[Any]]: ...
+
+
 class SideResults:
     """Contact at the nodes of a deformable side of a pair."""
 
-    def __init__(self, results: native.Results, pair: int, b: bool) -> None:
+    def __init__(self, results: Sided, pair: int, b: bool) -> None:
         """Use ``increment.pair(0).a`` to get results."""
         self._results, self._pair, self._b = results, pair, b
 

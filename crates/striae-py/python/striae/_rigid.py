@@ -9,7 +9,6 @@ import os
 from collections.abc import Mapping, Sequence
 from typing import Any, Literal, Optional, Union
 
-import numpy as np
 import numpy.typing as npt
 
 from . import _check as check
@@ -235,13 +234,4 @@ def _surface(source: Any) -> tuple[check.Floats, check.Ints]:
             "surface: a path, or points and a mapping such as {'triangle': corners}, is needed"
         )
     points, cells = source
-    facets = []
-    for kind, columns in [("triangle", 3), ("quad", 4)]:
-        if kind in cells:
-            corners = check.indices(cells[kind], columns, kind)
-            # A triangle repeats its last corner.
-            facets.append(corners if columns == 4 else corners[:, [0, 1, 2, 2]])
-    other = [kind for kind in cells if kind not in ("triangle", "quad")]
-    if other or not facets:
-        raise refuse("surface", f"`triangle` and `quad` are supported, but there is {list(cells)}")
-    return check.rows(points, "points"), np.ascontiguousarray(np.concatenate(facets))
+    return check.rows(points, "points"), check.facets(cells, "surface")

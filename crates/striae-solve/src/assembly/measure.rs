@@ -46,13 +46,9 @@ impl System<'_> {
             ..Norms::default()
         };
         for (pair, evaluation) in contacts.iter().enumerate() {
-            let sides = &self.context.pairs[pair].sides;
-            let modulus = sides[0].stiffness.min(sides[1].stiffness);
-            let nodes = evaluation.nodes.iter().flatten();
-            let pressure = nodes.map(|node| node.pressure.abs()).fold(0.0, f64::max);
             let scales = Scales {
                 force,
-                traction: pressure.max(SMALLEST_PRESSURE * modulus),
+                traction: self.context.pairs[pair].stress_scale(&evaluation.nodes),
             };
             let numbering = self.context.pairs[pair].numbering();
             for term in &evaluation.terms {
@@ -67,10 +63,6 @@ impl System<'_> {
         norms
     }
 }
-
-/// Pressure over the softer modulus below which pressures are not told from zero: without it
-/// contact that just closes or has just opened would never be found.
-const SMALLEST_PRESSURE: f64 = 1e-4;
 
 /// Residual force that round-off of the positions leaves in bodies without stress: an
 /// element gives `eps (k + m da_alpha/dx) |x|` with its mass `m` and the mean `k` of the

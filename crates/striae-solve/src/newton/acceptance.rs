@@ -5,7 +5,7 @@ use striae_contact::selection::Selection;
 use super::energy::Ends;
 use crate::{
     assembly::{Assembled, Imposed, StepContext, Trial},
-    state::{PairState, State},
+    state::State,
 };
 
 /// The state that a converged increment leads to.
@@ -51,17 +51,8 @@ pub(super) fn accepted(
         .zip(assembled.contacts)
         .zip(state.pairs.iter().zip(&context.plan.frictions))
         .map(
-            |(((mut tractions, selection), evaluation), (before, friction))| {
-                tractions.accumulate(&evaluation.nodes);
-                tractions.evolve(&evaluation.nodes, friction, imposed.elapsed);
-                PairState {
-                    dissipated: before.dissipated + evaluation.dissipated,
-                    kept: selection.kept_nodes(),
-                    tractions,
-                    carried: evaluation.carried,
-                    nodes: evaluation.nodes,
-                    facets: evaluation.facets,
-                }
+            |(((tractions, selection), evaluation), (before, friction))| {
+                before.after(tractions, selection, evaluation, friction, imposed.elapsed)
             },
         )
         .collect();

@@ -31,25 +31,11 @@ impl Ladder {
 /// Rules of an iteration after the first one of the increment.
 pub(super) fn later(strategy: Strategy, inflation: Inflation, number: usize) -> Iteration {
     match strategy {
-        Strategy::Semismooth => Iteration::Later {
-            slip_weight: slip_weight(number),
-        },
+        Strategy::Semismooth => Iteration::later(number),
         Strategy::Table1 { stick_tolerance } => Iteration::Corrected(Corrector {
             stick_tolerance,
             inflation,
         }),
-    }
-}
-
-/// `r_t` over its default. Cycles of first contact do not end with smaller increments, but
-/// with another `r_t`, first a smaller and then a larger one.
-fn slip_weight(number: usize) -> f64 {
-    match number {
-        0..=13 => 1.0,
-        // First contact has no length scale: if active sets cycle, smaller increments do not help,
-        // but another weight does.
-        14..=26 => 0.03,
-        _ => 10.0,
     }
 }
 
@@ -81,15 +67,14 @@ mod tests {
     #[test]
     fn a_problem_that_is_posed_late_starts_with_the_first_weight() {
         let mut ladder = Ladder::default();
-        let weight = |ladder: Ladder, made: usize| slip_weight(ladder.next(made));
-        assert_eq!(
-            [0, 20, 40].map(|made| weight(ladder, made)),
-            [1.0, 0.03, 10.0]
-        );
+        let next = |ladder: Ladder, made: usize| Iteration::later(ladder.next(made));
+        let weights = [1.0, 0.03, 10.0].map(|slip_weight| Iteration::Later { slip_weight });
+        assert_eq!([0, 20, 40].map(|made| next(ladder, made)), weights);
         ladder.restart(30);
+        let [first, second, _] = weights;
         assert_eq!(
-            [30, 42, 43].map(|made| weight(ladder, made)),
-            [1.0, 1.0, 0.03]
+            [30, 42, 43].map(|made| next(ladder, made)),
+            [first, first, second]
         );
     }
 }

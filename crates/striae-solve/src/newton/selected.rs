@@ -5,10 +5,11 @@ use striae_contact::{
     configuration::Configuration,
     directions::{Mover, Party, slip_freedoms},
     evaluation::Evaluation,
+    pair_state::{PairState, Predicted, fit},
     placement::Placement,
-    selection::{Kept, Selection},
+    selection::Selection,
     side::Side,
-    unknowns::{Label, NodeResult, Status, Tractions},
+    unknowns::{NodeResult, Status, Tractions},
 };
 use striae_mesh::Vec3;
 use striae_surface::node::SurfaceNode;
@@ -16,7 +17,7 @@ use striae_surface::node::SurfaceNode;
 use crate::{
     assembly::{Imposed, Setting, StepContext, Trial},
     model::Strategy,
-    state::{PairState, State},
+    state::State,
 };
 
 /// Traction fields of all pairs and unknowns that fit them.
@@ -62,14 +63,17 @@ fn without_freedoms(
     s: f64,
     given: Option<&[PairState]>,
 ) -> Selected {
-    let semismooth = context.problem.model.solver.strategy == Strategy::Semismooth;
+    let predicted = match context.problem.model.solver.strategy {
+        Strategy::Semismooth => Predicted::AsBefore,
+        // The strategy of Table 1 predicts stick in every increment.
+        Strategy::Table1 { .. } => Predicted::Stick,
+    };
     let (selections, tractions) = state
         .pairs
         .iter()
         .enumerate()
         .map(|(pair, of_pair)| {
             let start = context.configuration(pair, &state.positions, &state.rigid);
-            let mut tractions = of_pair.tractions.clone();
             let prescribed = &context.fixed_on_pair[pair];
             let chosen = match given {
                 None => Selection::new(&start, None, &of_pair.kept, prescribed),
@@ -80,48 +84,13 @@ fn without_freedoms(
                 fitted: context.fitted(pair, s),
                 ..chosen
             };
-            tractions.tau_n = of_pair
-                .carried
-                .each_ref()
-                // The unknown is `z = -tau`.
-                .map(|side| side.iter().map(|[_, t1, t2]| [-t1, -t2]).collect());
-            let with = |status: Status| {
-                let of_side = |side: &Vec<NodeResult>| -> Vec<bool> {
-                    side.iter().map(|node| node.status == status).collect()
-                };
-                of_pair.nodes.each_ref().map(of_side)
-            };
-            tractions.stuck = with(Status::Stick);
-            tractions.slipped = match semismooth {
-                true => with(Status::Slip),
-                // The strategy of Table 1 predicts stick in every increment.
-                false => of_pair.nodes.each_ref().map(|side| vec![false; side.len()]),
-            };
-            let labelled = |side: &Vec<bool>| side.iter().map(|slipped| label(*slipped)).collect();
-            tractions.labels = tractions.slipped.each_ref().map(labelled);
-            tractions.bedded = of_pair
-                .nodes
-                .each_ref()
-                .map(|side| side.iter().map(|node| node.closed).collect());
-            fit(&selection, &of_pair.kept, &of_pair.carried, &mut tractions);
+            let tractions = of_pair.started(&selection, predicted);
             (selection, tractions)
         })
         .unzip();
     Selected {
         selections,
         tractions,
-    }
-}
-
-/// The label that a node starts with which has slipped in the converged state, or not.
-fn label(slipped: bool) -> Label {
-    let status = match slipped {
-        true => Status::Slip,
-        false => Status::Open,
-    };
-    Label {
-        status,
-        ..Label::default()
     }
 }
 
@@ -243,25 +212,4 @@ fn with_configurations<'a>(
         let latest = context.configuration(pair, &trial.positions, &trial.rigid);
         (start, latest)
     })
-}
-
-/// Gives nodes that are newly kept what the field carried there, and others nothing.
-fn fit(
-    selection: &Selection,
-    before: &Kept,
-    carried: &[Vec<[f64; 3]>; 2],
-    tractions: &mut Tractions,
-) {
-    for side in Side::BOTH {
-        for (node, unknowns) in tractions.nodes[side].iter_mut().enumerate() {
-            let node = SurfaceNode::new(node);
-            if !selection.is_kept(side, node) {
-                *unknowns = [0.0; 3];
-            } else if !before[side][node] {
-                // A new node continues the previous field at its place, so that roles can change
-                // without a jump of the forces.
-                *unknowns = carried[side][node];
-            }
-        }
-    }
 }
