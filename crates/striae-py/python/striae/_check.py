@@ -44,6 +44,9 @@ CURVES = ("ramp", "constant", "smooth")
 #: Straight pieces by which a curve given as a function is approximated.
 PIECES = 1000
 
+#: Deviation from a rotation that is round-off.
+TURNED = 1e-9
+
 T = TypeVar("T")
 
 
@@ -130,6 +133,34 @@ def counts(value: Any, path: str, count: int = 3) -> list[int]:
     if int(found.min()) < 1:
         raise refuse(path, f"at least 1 is needed, but there is {int(found.min())}")
     return [int(number) for number in found]
+
+
+def booleans(value: Any, path: str) -> list[bool]:
+    """Booleans of an array of shape (n, 3), row by row."""
+    found = np.asarray(value)
+    if found.dtype != np.bool_ or found.ndim != 2 or found.shape[1] != 3:
+        raise refuse(
+            path,
+            "an array of booleans of shape (n, 3) is needed,"
+            f" but it has dtype {found.dtype} and shape {found.shape}",
+        )
+    listed: list[bool] = found.ravel().tolist()
+    return listed
+
+
+def rigid_motion(value: Any, path: str) -> tuple[list[list[float]], list[float]]:
+    """Rotation, by rows, and shift."""
+    found = array(value, path)
+    if found.shape == (3,):
+        return np.eye(3).tolist(), vector(found, path)
+    if found.shape != (4, 4):
+        raise refuse(path, f"an array of shape (3,) or (4, 4) is needed, but it has {found.shape}")
+    motion = finite(found, path)
+    turn = motion[:3, :3]
+    is_turn = np.abs(turn.T @ turn - np.eye(3)).max() <= TURNED and np.linalg.det(turn) > 0.0
+    if not is_turn or not np.array_equal(motion[3], [0.0, 0.0, 0.0, 1.0]):
+        raise refuse(path, "it is no rigid motion: rows are those of [[R, s], [0, 1]], R a rotation")
+    return turn.tolist(), motion[:3, 3].tolist()
 
 
 def number(value: Any, path: str) -> float:

@@ -41,10 +41,6 @@ from ._texture import Texture, texture
 
 __all__ = ["Contact", "Evaluation", "Increment", "Kept", "Pair", "PairEvaluation", "State", "Surface"]
 
-#: Deviation from a rotation that is round-off.
-TURNED = 1e-9
-
-
 class Surface(Made):
     """Facets of the mesh that may touch."""
 
@@ -168,7 +164,7 @@ class Contact(Made):
             for given, name in [(end, "end"), (predicted, "predicted")]
         ]
         lasts = float("inf") if duration is None else check.positive(duration, "duration")
-        held = _booleans(prescribed)
+        held = [] if prescribed is None else check.booleans(prescribed, "prescribed")
         placed = self._placed(dict(rigid or {}))
         origin = check.kind(state, State, "state")._native
         return Increment(self._native.begin(origin, held, ends, placed, lasts), self)
@@ -180,7 +176,7 @@ class Contact(Made):
             if name not in known:
                 told = ", ".join(f"`{one}`" for one in known if one is not None) or "none"
                 raise refuse(f"rigid[{name!r}]", f"there is no such rigid surface; known: {told}")
-            turn, shift = _motion(value, f"rigid[{name!r}]")
+            turn, shift = check.rigid_motion(value, f"rigid[{name!r}]")
             placed += [(at, turn, shift) for at, one in enumerate(known) if one == name]
         return placed
 
@@ -401,33 +397,3 @@ def _restored(stored: bytes) -> State:
 
 def _texture(value: Union[Texture, Vector, None]) -> Optional[Texture]:
     return texture(value)
-
-
-def _booleans(prescribed: Optional[npt.ArrayLike]) -> list[bool]:
-    """Prescribed components, three a node; none where nothing is prescribed."""
-    if prescribed is None:
-        return []
-    found = np.asarray(prescribed)
-    if found.dtype != np.bool_ or found.ndim != 2 or found.shape[1] != 3:
-        raise refuse(
-            "prescribed",
-            "an array of booleans of shape (n, 3) is needed,"
-            f" but it has dtype {found.dtype} and shape {found.shape}",
-        )
-    listed: list[bool] = found.ravel().tolist()
-    return listed
-
-
-def _motion(value: Any, path: str) -> tuple[list[list[float]], list[float]]:
-    """Rotation and shift."""
-    found = check.array(value, path)
-    if found.shape == (3,):
-        return np.eye(3).tolist(), check.vector(found, path)
-    if found.shape != (4, 4):
-        raise refuse(path, f"an array of shape (3,) or (4, 4) is needed, but it has {found.shape}")
-    motion = check.finite(found, path)
-    turn = motion[:3, :3]
-    is_turn = np.abs(turn.T @ turn - np.eye(3)).max() <= TURNED and np.linalg.det(turn) > 0.0
-    if not is_turn or not np.array_equal(motion[3], [0.0, 0.0, 0.0, 1.0]):
-        raise refuse(path, "it is no rigid motion: rows are those of [[R, s], [0, 1]], R a rotation")
-    return turn.tolist(), motion[:3, 3].tolist()
