@@ -143,11 +143,12 @@ impl Pressures<'_> {
         let heights = paired.heights(configuration);
         let segment = &paired.segment;
         let heights = std::array::from_fn(|d| heights[d] + offsets[d]);
+        let near = TOUCHING * segment.area.sqrt();
         let touching = match self.iteration {
-            Iteration::First => TOUCHING * segment.area.sqrt(),
+            Iteration::First => near,
             Iteration::Later { .. } | Iteration::Corrected(_) => 0.0,
         };
-        let pressing = Pressing::new(supports, heights, touching);
+        let pressing = Pressing::new(supports, heights, [touching, near]);
         let x = &paired.x;
         let facet = Facet {
             corners: [x[0], x[1], x[2], x[3]],

@@ -177,7 +177,7 @@ mod tests {
             if c < 4 { -height } else { height }
         });
         let supports = vec![support(0, 3.0), support(1, 2.0)];
-        found.pressed(&a, &Pressing::new(supports, heights, 0.0))
+        found.pressed(&a, &Pressing::new(supports, heights, [0.0; 2]))
     }
 
     fn values(pressed: &Pressed) -> DVector<f64> {

@@ -66,14 +66,15 @@ pub struct PressedSlopes {
 
 impl Pressing {
     /// Of supports at heights `a_d` of the corners; points with a gap below `touching` count as
-    /// closed that nothing presses yet.
-    pub fn new(supports: Vec<Support>, heights: [f64; 8], touching: f64) -> Self {
+    /// closed that nothing presses yet. Below `near` they count as closed for the next increment:
+    /// at a gap of zero that nothing presses, round-off would decide otherwise.
+    pub fn new(supports: Vec<Support>, heights: [f64; 8], [touching, near]: [f64; 2]) -> Self {
         let limit = |support: &Support| match support.bedding > 0.0 {
             true => support.pressure / support.bedding + touching,
             false => f64::NEG_INFINITY,
         };
         let full = |support: &Support| match support.full > 0.0 {
-            true => support.pressure / support.full + touching,
+            true => support.pressure / support.full + near,
             false => f64::NEG_INFINITY,
         };
         Self {
@@ -106,10 +107,16 @@ impl Pressing {
         self.limits.iter().filter(|limit| gap < **limit).count()
     }
 
-    /// Returns whether no pressure acts and no point with these shape functions is closed.
+    /// Returns whether no pressure acts and no point with these shape functions is closed, now or
+    /// for the next increment.
     pub(super) fn is_idle(&self, mut points: impl Iterator<Item = [f64; 8]>) -> bool {
         let unpressed = |support: &Support| support.pressure == 0.0;
-        self.supports.iter().all(unpressed) && points.all(|shares| self.state(&shares) == 0)
+        let is_apart = |shares: [f64; 8]| {
+            let gap = self.gap(&shares);
+            let mut limits = self.limits.iter().chain(&self.full_limits);
+            limits.all(|limit| gap >= *limit)
+        };
+        self.supports.iter().all(unpressed) && points.all(is_apart)
     }
 
     /// `sum_k v_k share_kd`, of a value of every support.
