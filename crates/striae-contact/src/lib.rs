@@ -40,6 +40,7 @@ mod tracked;
 mod traction;
 mod transfer;
 mod transported;
+mod wear_rows;
 mod weighted;
 
 pub mod bedding;
@@ -71,3 +72,4 @@ pub mod tie;
 pub mod traction_basis;
 pub mod unknown;
 pub mod unknowns;
+pub mod wear;

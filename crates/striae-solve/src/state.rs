@@ -58,6 +58,8 @@ pub struct PairState {
     pub facets: [Vec<(FacetId, FacetForces)>; 2],
     /// Work dissipated by friction since the start.
     pub dissipated: f64,
+    /// Volume that has worn off each side since the start.
+    pub worn: [f64; 2],
 }
 
 /// Forces on all global nodes.
@@ -188,6 +190,7 @@ impl PairState {
             nodes: counts.map(|count| vec![NodeResult::default(); count]),
             facets: [Vec::new(), Vec::new()],
             dissipated: 0.0,
+            worn: [0.0; 2],
         }
     }
 }

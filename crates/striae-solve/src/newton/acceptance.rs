@@ -53,9 +53,11 @@ pub(super) fn accepted(
         .map(
             |(((mut tractions, selection), evaluation), (before, friction))| {
                 tractions.accumulate(&evaluation.nodes);
+                tractions.wear_off(&evaluation.worn.depths);
                 tractions.evolve(&evaluation.nodes, friction, imposed.elapsed);
                 PairState {
                     dissipated: before.dissipated + evaluation.dissipated,
+                    worn: [0, 1].map(|side| before.worn[side] + evaluation.worn.volumes[side]),
                     kept: selection.kept_nodes(),
                     tractions,
                     carried: evaluation.carried,

@@ -6,7 +6,7 @@ use striae_contact::{
     directions::{Mover, Party, slip_freedoms},
     evaluation::Evaluation,
     placement::Placement,
-    selection::{Kept, Selection},
+    selection::{Kept, Selection, deepest},
     side::Side,
     unknowns::{Label, NodeResult, Status, Tractions},
 };
@@ -68,8 +68,14 @@ fn without_freedoms(
         .iter()
         .enumerate()
         .map(|(pair, of_pair)| {
-            let start = context.configuration(pair, &state.positions, &state.rigid);
             let mut tractions = of_pair.tractions.clone();
+            let wears = context.pairs[pair].wears();
+            let worn = match wears {
+                true => tractions.worn.clone(),
+                false => [Vec::new(), Vec::new()],
+            };
+            let start = context.configuration(pair, &state.positions, &state.rigid);
+            let start = start.worn(deepest(&worn));
             let prescribed = &context.fixed_on_pair[pair];
             let chosen = match given {
                 None => Selection::new(&start, None, &of_pair.kept, prescribed),
@@ -78,6 +84,7 @@ fn without_freedoms(
             let selection = Selection {
                 offsets: context.offsets_left(pair, s),
                 fitted: context.fitted(pair, s),
+                worn,
                 ..chosen
             };
             tractions.tau_n = of_pair
@@ -104,6 +111,9 @@ fn without_freedoms(
                 .each_ref()
                 .map(|side| side.iter().map(|node| node.closed).collect());
             fit(&selection, &of_pair.kept, &of_pair.carried, &mut tractions);
+            if wears {
+                press(&selection, &of_pair.carried, &mut tractions);
+            }
             (selection, tractions)
         })
         .unzip();
@@ -133,9 +143,12 @@ pub(super) fn reselected(setting: &Setting, trial: &Trial, contacts: &[Evaluatio
             let had = &setting.selections[pair];
             let kept = had.kept_nodes();
             let prescribed = &setting.context.fixed_on_pair[pair];
+            let worn = deepest(&had.worn);
+            let (start, latest) = (start.worn(worn), latest.worn(worn));
             let selection = Selection {
                 offsets: had.offsets.clone(),
                 fitted: had.fitted.clone(),
+                worn: had.worn.clone(),
                 ..Selection::new(&start, Some(&latest), &kept, prescribed)
             };
             let mut tractions = trial.tractions[pair].clone();
@@ -263,5 +276,14 @@ fn fit(
                 *unknowns = carried[side][node];
             }
         }
+    }
+}
+
+/// Gives kept nodes the pressure that acts on them: what wore in the increment before had a part in
+/// it beside their unknowns, and is part of the gap from now on.
+fn press(selection: &Selection, carried: &[Vec<[f64; 3]>; 2], tractions: &mut Tractions) {
+    for kept in selection.kept() {
+        let (side, node) = kept.place();
+        tractions.nodes[side][node][0] = carried[side][node][0];
     }
 }
