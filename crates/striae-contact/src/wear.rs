@@ -8,14 +8,13 @@
 //! q_l  = P^_l |du_l|,   P^_l = p_l - r_l/w_l integral phi_l min(g, p_l/r_l) da
 //! dw_J = k_s sum_l Z_Jl q_l              depth at the nodes J of side s
 //! g_k += sum_l M_kl q_l                  with the rows M of `wear_rows`
-//! P^_k += r_k w^0_k/w_k sum_l M_kl q_l
 //! ```
 //!
-//! `P^_l` is the mean pressure over the support as the points see it. It is the bound of friction
-//! of [`crate::complementarity`] where the gap row holds, without the detour by the rows of others;
-//! the last line keeps the two equal. The slip is the one that is seen, without what the ramp adds.
-//! `Z` and `M` are those of the start of the increment; what has worn before is part of the gap at
-//! points, see [`Selection::worn`].
+//! `P^_l` is the mean pressure over the support as the points see it, and bounds friction in place
+//! of that of [`crate::complementarity`], which is the same where the gap row holds: next to what
+//! wears off, `p_l` alone may be far from the pressure. The slip is the one that is seen, without
+//! what the ramp adds. `Z` and `M` are those of the start of the increment; what has worn before is
+//! part of the gap at points, see [`Selection::worn`].
 
 use striae_mesh::Vec3;
 use striae_surface::node::SurfaceNode;
@@ -31,13 +30,22 @@ use crate::{
     unknowns::Tractions,
 };
 
-/// `q_l` of all kept nodes, from kinematics without ramps; empty for pairs without wear.
+/// Pressure and wear of a kept node over its coefficient.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Rate {
+    /// `P^_l`.
+    pressure: TrackedScalar,
+    /// `q_l`.
+    wear: TrackedScalar,
+}
+
+/// Rates of all kept nodes, from kinematics without ramps; empty for pairs without wear.
 pub(crate) fn rates(
     pair: &ContactPair,
     selection: &Selection,
     tractions: &Tractions,
     kinematics: &[Kinematics],
-) -> Vec<TrackedScalar> {
+) -> Vec<Rate> {
     if selection.wear().is_empty() {
         return Vec::new();
     }
@@ -48,8 +56,9 @@ pub(crate) fn rates(
         let own = numbering.traction(side, node);
         let p = tractions.nodes[side][node][0];
         let pressure = mean_pressure(kinematics, selection.weight(k), (own, p));
-        pressure.map_or_else(TrackedScalar::default, |pressure| {
-            rate(&pressure, kinematics)
+        pressure.map_or_else(Rate::default, |pressure| Rate {
+            wear: wear(&pressure, kinematics),
+            pressure,
         })
     })
     .collect()
@@ -83,7 +92,7 @@ fn mean_pressure(
 }
 
 /// `q_l`, without derivatives where the node does not slip.
-fn rate(pressure: &TrackedScalar, kinematics: &Kinematics) -> TrackedScalar {
+fn wear(pressure: &TrackedScalar, kinematics: &Kinematics) -> TrackedScalar {
     let slip = &kinematics.slip;
     let Some(direction) = slip.value.try_normalize(0.0) else {
         return TrackedScalar::default();
@@ -99,42 +108,28 @@ fn rate(pressure: &TrackedScalar, kinematics: &Kinematics) -> TrackedScalar {
     }
 }
 
-/// Opens the gaps by what wears in the increment, and adds to the pressures that bound friction.
-pub(crate) fn add_to_gaps(
-    selection: &Selection,
-    rates: &[TrackedScalar],
-    kinematics: &mut [Kinematics],
-) {
-    for (k, (kinematics, row)) in kinematics.iter_mut().zip(selection.wear()).enumerate() {
+/// Opens the gaps by what wears in the increment, and decides the pressures that bound friction.
+pub(crate) fn add_to_gaps(selection: &Selection, rates: &[Rate], kinematics: &mut [Kinematics]) {
+    let rows = selection.wear().iter().zip(rates);
+    for (kinematics, (row, own)) in kinematics.iter_mut().zip(rows) {
         let worn = combined(row, rates);
         kinematics.gap.value += worn.value;
         kinematics.gap.gradient.extend(&worn.gradient);
-        let Pressure::AtPoints(supported) = &mut kinematics.pressure else {
-            continue;
-        };
-        if kinematics.presence == Presence::Gone {
-            continue;
+        if kinematics.presence != Presence::Gone
+            && let Pressure::AtPoints(supported) = &mut kinematics.pressure
+        {
+            supported.mean = own.pressure.clone();
         }
-        let factor = supported.bedding * selection.weight(k) / supported.weight.value;
-        let mean = &mut supported.mean;
-        mean.value += factor * worn.value;
-        let by_worn = worn.gradient.iter();
-        mean.gradient
-            .extend(by_worn.map(|(first, slope)| (*first, slope * factor)));
-        let by_weight = -factor * worn.value / supported.weight.value;
-        let of_weight = supported.weight.gradient.iter();
-        mean.gradient
-            .extend(of_weight.map(|(first, slope)| (*first, slope * by_weight)));
     }
 }
 
 /// `sum_l row_l q_l`, with one slope for each triple.
-fn combined(row: &[(u32, f64)], rates: &[TrackedScalar]) -> TrackedScalar {
+fn combined(row: &[(u32, f64)], rates: &[Rate]) -> TrackedScalar {
     let mut value = 0.0;
     let mut gradient = Gradient::new();
     let mut places = Places::none();
     for &(l, weight) in row {
-        let rate = &rates[l as usize];
+        let rate = &rates[l as usize].wear;
         value += weight * rate.value;
         for (first, slope) in &rate.gradient {
             let at = places.find(*first, gradient.len());
@@ -158,14 +153,14 @@ pub struct Worn {
 }
 
 impl Worn {
-    /// From `q_l` of the kept nodes.
-    pub(crate) fn new(pair: &ContactPair, selection: &Selection, rates: &[TrackedScalar]) -> Self {
+    /// From the rates of the kept nodes.
+    pub(crate) fn new(pair: &ContactPair, selection: &Selection, rates: &[Rate]) -> Self {
         if rates.is_empty() {
             return Self::default();
         }
         let weighted = rates.iter().enumerate();
         let whole: f64 = weighted
-            .map(|(l, rate)| selection.weight(l) * rate.value)
+            .map(|(l, rate)| selection.weight(l) * rate.wear.value)
             .sum();
         Self {
             depths: Side::BOTH.map(|side| depths(pair, selection, rates, side)),
@@ -174,16 +169,11 @@ impl Worn {
     }
 }
 
-fn depths(
-    pair: &ContactPair,
-    selection: &Selection,
-    rates: &[TrackedScalar],
-    side: Side,
-) -> Vec<f64> {
+fn depths(pair: &ContactPair, selection: &Selection, rates: &[Rate], side: Side) -> Vec<f64> {
     let depth = |node: SurfaceNode| {
         let row = selection.row(side, node).iter();
         let rate: f64 = row
-            .map(|&(l, weight)| weight * rates[l as usize].value)
+            .map(|&(l, weight)| weight * rates[l as usize].wear.value)
             .sum();
         pair.wear[side] * rate
     };

@@ -16,12 +16,13 @@ fn with(keys: &str) -> String {
     text
 }
 
-/// The deck with its second side on the rigid plane.
+/// The deck with a pair of the rigid plane and the lower block before its own.
 fn on_floor(keys: &str) -> String {
-    let upper = "b = { body = \"upper\", facets = \"zmin\" }";
-    let lower = "a = { body = \"lower\", facets = \"zmax\" }";
-    let text = with(keys).replacen(upper, "b = { body = \"lower\", facets = \"zmin\" }", 1);
-    text.replacen(lower, "a = { rigid = \"floor\" }", 1)
+    let pair = format!(
+        "[[pair]]\nname = \"ground\"\na = {{ rigid = \"floor\" }}\n\
+         b = {{ body = \"lower\", facets = \"zmin\" }}\n{FRICTION}{keys}\n[[pair]]\n"
+    );
+    BASE.replacen("[[pair]]\n", &pair, 1)
 }
 
 fn wear(text: &str) -> [f64; 2] {
