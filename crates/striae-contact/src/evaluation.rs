@@ -51,7 +51,7 @@ pub struct Evaluation {
     pub topology: u64,
     /// Work that friction dissipates at the nodes that slip, `-sum_k w_k tau_k . du_k`.
     pub dissipated: f64,
-    /// What wears off both sides in the increment.
+    /// Wear of both sides in the increment.
     pub worn: Worn,
 }
 

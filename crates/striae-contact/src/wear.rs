@@ -143,7 +143,7 @@ fn combined(row: &[(u32, f64)], rates: &[Rate]) -> TrackedScalar {
     TrackedScalar { value, gradient }
 }
 
-/// What friction wears off both sides in an increment; nothing of pairs without wear.
+/// Wear of both sides in an increment; nothing of pairs without wear.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Worn {
     /// `dw_J` of all nodes, by side; empty for pairs without wear.

@@ -2,9 +2,10 @@
 
 use std::f64::consts::PI;
 
+use striae_contact::side::Side;
 use striae_law::bulk::{LameConstants, Material};
 use striae_mesh::generate::{CappedBlock, Part};
-use striae_solve::{outcome::Ending, report::pairs};
+use striae_solve::outcome::Ending;
 
 use crate::scene::{Places, Run, body, coulomb, increments, model, plane, step};
 
@@ -16,11 +17,13 @@ const WEAR: f64 = 1000.0;
 /// Half of a block with a spherical lower face, lowered as it slides along the plane, then slid on.
 fn sphere(element_size: f64) -> Run {
     let mesh = CappedBlock {
-        size: [14.0; 2],
-        height: 7.0,
+        size: [12.0; 2],
+        height: 3.0,
         radius: RADIUS,
         element_size,
+        fine_half_width: 4.0,
         fine_depth: 0.5,
+        growth: 1.6,
         part: Part::Half,
         ..CappedBlock::default()
     };
@@ -36,86 +39,37 @@ fn sphere(element_size: f64) -> Run {
     ];
     lower.increments = increments(0.05, 1e-4);
     slide.displacements = vec![model.hold("block", "zmax", [Some(1.0), None, None])];
-    slide.increments = increments(0.25, 1e-3);
+    slide.increments = increments(0.5, 1e-3);
     model.steps = vec![lower, slide];
     Run::of(model)
 }
 
-/// The volume `pi R d^2 = pi a^4/(4 R)` of the cap, and the area `pi a^2 = 2 pi R d` of its base.
+/// The volume `pi R d^2 = pi a^4/(4 R)` of the cap, and its depth `d - r^2/(2 R)` within the radius
+/// `a = sqrt(2 R d)` of the scar. The ring of facets at its edge, in which supports are open in part,
+/// limits what a mesh gives.
 #[test]
 fn a_sphere_loses_its_cap() {
-    for size in [0.7, 0.5] {
-        let run = sphere(size);
-        assert_eq!(run.ending, Ending::Completed);
-        let volume = 2.0 * run.last().pairs[0].worn[0];
-        let volume = volume / (PI * RADIUS * LOWERED * LOWERED) - 1.0;
-        let area = 2.0 * pairs(&run.problem, run.last())[0].sides[0].pressed;
-        let area = area / (2.0 * PI * RADIUS * LOWERED) - 1.0;
-        let worn = run.last().pairs[0].tractions.worn[0].iter();
-        let deepest = worn.copied().fold(0.0, f64::max);
-        let iterations: usize = run.iterations.iter().map(Vec::len).sum();
-
-        let geometry = &run.problem.pairs[0];
-        let surface = geometry.contact.sides[0].surface().unwrap();
-        let x: Vec<_> = surface
-            .nodes()
-            .iter()
-            .map(|&n| run.problem.reference[run.problem.node(0, n)])
-            .collect();
-        let mut sum = 0.0;
-        let mut cap = 0.0;
-        for facet in surface.facets() {
-            let c: Vec<_> = facet.iter().map(|n| x[n.index()]).collect();
-            let area = 0.5 * (c[2] - c[0]).cross(&(c[3] - c[1])).norm();
-            let worn = &run.last().pairs[0].tractions.worn[0];
-            sum += 0.25 * area * facet.iter().map(|n| worn[n.index()]).sum::<f64>();
-            cap += 0.25
-                * area
-                * facet
-                    .iter()
-                    .map(|n| (LOWERED - x[n.index()].z).max(0.0))
-                    .sum::<f64>();
-        }
-        println!(
-            "geometric {} nodal cap {}",
-            2.0 * sum / (PI * RADIUS * LOWERED * LOWERED) - 1.0,
-            2.0 * cap / (PI * RADIUS * LOWERED * LOWERED) - 1.0
-        );
-        for (p, c) in &run.cuts {
-            println!("{p:?} {c}");
-        }
-        for its in run.iterations.iter().take(12) {
-            println!("--");
-            for n in its {
-                println!("{n:?}");
-            }
-        }
-        for state in run.states.iter().step_by(4) {
-            println!(
-                "t {} V {:.4e} area {:.3} p {:.3e}",
-                state.time,
-                state.pairs[0].worn[0],
-                pairs(&run.problem, state)[0].sides[0].pressed,
-                pairs(&run.problem, state)[0].max_pressure
+    let size = 0.5;
+    let run = sphere(size);
+    assert_eq!(run.ending, Ending::Completed);
+    let cap = PI * RADIUS * LOWERED * LOWERED;
+    let error = 2.0 * run.last().pairs[0].worn[0] / cap - 1.0;
+    assert!(error.abs() < 0.05, "{error:.4}");
+    let radius = (2.0 * RADIUS * LOWERED).sqrt();
+    let surface = run.problem.pairs[0].contact.sides[Side::A]
+        .surface()
+        .unwrap();
+    let worn = &run.last().pairs[0].tractions.worn[Side::A];
+    for (node, depth) in surface.nodes().iter().zip(worn) {
+        let from_axis = run.problem.reference[node.index()].xy().norm();
+        let expected = LOWERED - from_axis * from_axis / (2.0 * RADIUS);
+        if from_axis < radius - size {
+            assert!(
+                (depth - expected).abs() < 0.05 * LOWERED,
+                "{from_axis} {depth} {expected}"
             );
+        } else if from_axis > radius + size {
+            assert!(*depth < 1e-3 * LOWERED, "{from_axis} {depth}");
         }
-        for (x, w) in x.iter().zip(&run.last().pairs[0].tractions.worn[0]) {
-            if x.y < 0.3 && x.x > 0.0 && *w > 0.0 || x.y < 0.3 && x.x > 0.0 && x.x < 5.0 {
-                println!(
-                    "{:.2} {:.2} depth {:.6} cap {:.6}",
-                    x.x,
-                    x.y,
-                    w,
-                    LOWERED - x.z
-                );
-            }
-        }
-        println!(
-            "{size} {volume} {area} {} {:?} inc {} cuts {} it {iterations}",
-            deepest / LOWERED,
-            pairs(&run.problem, run.last())[0].max_pressure,
-            run.progress.len(),
-            run.cuts.len()
-        );
     }
 }
