@@ -25,6 +25,8 @@ pub struct Configuration<'a> {
     pub placement: Placement,
     /// Time since the last converged configuration; infinite where it does not matter.
     pub elapsed: f64,
+    /// Depth by which the sides may overlap as they have worn, zero where it does not matter.
+    pub worn: f64,
 }
 
 /// A surface of facets in one configuration.
@@ -79,6 +81,7 @@ impl<'a> Configuration<'a> {
             sides: [snapshot(Side::A, a), snapshot(Side::B, b)],
             placement,
             elapsed: f64::INFINITY,
+            worn: 0.0,
         }
     }
 
@@ -100,6 +103,11 @@ impl<'a> Configuration<'a> {
         Self { elapsed, ..self }
     }
 
+    /// Copy of the configuration, of sides that may overlap by `worn`.
+    pub fn worn(self, worn: f64) -> Self {
+        Self { worn, ..self }
+    }
+
     /// The snapshot of a side that has facets.
     ///
     /// # Panics
@@ -117,10 +125,10 @@ impl<'a> Configuration<'a> {
     }
 
     /// Distance within which the node looks for the other side: half the local facet size
-    /// or, where that is larger, the search distance of the pair.
+    /// or, where that is larger, the search distance of the pair, and what has worn off.
     pub fn reach(&self, side: Side, node: SurfaceNode) -> f64 {
         let least = 0.5 * self.side(side).sizes[node];
-        self.pair.search_distance.unwrap_or(0.0).max(least)
+        self.pair.search_distance.unwrap_or(0.0).max(least) + self.worn
     }
 
     /// Local facet size at a node of a deformable side.

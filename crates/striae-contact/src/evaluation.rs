@@ -30,6 +30,7 @@ use crate::{
     traction::{NodalTractions, Surroundings, nodal_tractions},
     transported::Transported,
     unknowns::{NodeResult, Status, Tractions},
+    wear::{self, Worn},
     weighted,
 };
 
@@ -50,6 +51,8 @@ pub struct Evaluation {
     pub topology: u64,
     /// Work that friction dissipates at the nodes that slip, `-sum_k w_k tau_k . du_k`.
     pub dissipated: f64,
+    /// Wear of both sides in the increment.
+    pub worn: Worn,
 }
 
 /// Reason why a pair cannot be evaluated.
@@ -85,14 +88,12 @@ pub fn evaluate(
     let frames = frames(configuration, selection);
     let (patches, mut kinematics) = match configuration.pair.enforcement {
         Enforcement::Weighted => {
+            // Forces at a node then depend on all segments around its neighbours, or gaps do.
+            let reaches_far = friction.depends_on_rate() || configuration.pair.wears();
             let slopes = |corners: &[Corners]| {
-                // Where friction depends on the slip rate, forces at a node depend on all segments
-                // around its neighbours, not on its own alone.
                 let asked = || wanted(configuration, selection, (conditions.wanted, corners));
                 match (derivatives, slip) {
-                    (Derivatives::First, _) if !friction.depends_on_rate() && !asked() => {
-                        SegmentDerivatives::None
-                    }
+                    (Derivatives::First, _) if !reaches_far && !asked() => SegmentDerivatives::None,
                     (Derivatives::First, Slip::Left) => SegmentDerivatives::OfPressure,
                     (Derivatives::First, Slip::Wanted) => SegmentDerivatives::All,
                     (Derivatives::None, _) => SegmentDerivatives::None,
@@ -116,8 +117,10 @@ pub fn evaluate(
     let textures = textures(configuration, friction, selection, &frames, &kinematics)
         .map_err(Collapse::Texture)?;
     let rates = slip_rates(configuration, friction, selection, &kinematics);
+    let worn = wear::rates(configuration.pair, selection, tractions, &kinematics);
     if configuration.pair.enforcement == Enforcement::Weighted {
         ramp::add_to_gaps(configuration, selection, tractions, &mut kinematics);
+        wear::add_to_gaps(selection, &worn, &mut kinematics);
     }
     let surroundings = Surroundings {
         friction,
@@ -150,6 +153,7 @@ pub fn evaluate(
         tau: &tau,
     };
     let mut evaluation = stage.nodal(&patches);
+    evaluation.worn = Worn::new(configuration.pair, selection, &worn);
     evaluation.add_rows(&stage, conditions, derivatives);
     evaluation.follow_status(selection);
     match configuration.pair.enforcement {
@@ -185,6 +189,7 @@ impl Stage<'_> {
             facets: [Vec::new(), Vec::new()],
             topology: topology(patches.iter().map(|patch| &patch.paired)),
             dissipated: 0.0,
+            worn: Worn::default(),
         };
         for side in Side::BOTH {
             for node in SurfaceNode::all(counts[side]) {

@@ -87,6 +87,8 @@ pub struct Interface<'a> {
     pub opposing: [&'a [Option<ClampedProjection>]; 2],
     /// Kind of side 1.
     pub opponent: Opponent<'a>,
+    /// Coefficients of wear of both sides over their hardness.
+    pub wear: [f64; 2],
 }
 
 impl Interface<'_> {

@@ -42,6 +42,7 @@ mod tracked;
 mod traction;
 mod transfer;
 mod transported;
+mod wear_rows;
 mod weighted;
 
 pub mod bedding;
@@ -75,3 +76,4 @@ pub mod tie;
 pub mod traction_basis;
 pub mod unknown;
 pub mod unknowns;
+pub mod wear;

@@ -30,6 +30,8 @@ pub struct ContactPair {
     pub has_faces: bool,
     /// Both sides are faces of one body, which may lie between them.
     pub one_body: bool,
+    /// Coefficients of wear of the sides over their hardness: depth per pressure and slip.
+    pub wear: [f64; 2],
 }
 
 /// One side of a pair.
@@ -110,6 +112,11 @@ impl ContactPair {
     /// Numbers of the pair's unknowns.
     pub fn numbering(&self) -> Numbering {
         Numbering::new(self.carriers())
+    }
+
+    /// Returns whether friction wears a side.
+    pub fn wears(&self) -> bool {
+        self.wear != [0.0; 2]
     }
 
     /// Number of nodes that may bear traction, by side: those of deformable sides.

@@ -33,6 +33,8 @@ pub struct PairState {
     pub facets: [Vec<(FacetId, FacetForces)>; 2],
     /// Work dissipated by friction since the start.
     pub dissipated: f64,
+    /// Volume that has worn off each side since the start.
+    pub worn: [f64; 2],
 }
 
 /// Status in which contact starts an increment.
@@ -55,6 +57,7 @@ impl PairState {
             nodes: counts.map(|count| vec![NodeResult::default(); count]),
             facets: [Vec::new(), Vec::new()],
             dissipated: 0.0,
+            worn: [0.0; 2],
         }
     }
 
@@ -97,9 +100,11 @@ impl PairState {
         elapsed: f64,
     ) -> Self {
         tractions.accumulate(&evaluation.nodes);
+        tractions.wear_off(&evaluation.worn.depths);
         tractions.evolve(&evaluation.nodes, friction, elapsed);
         Self {
             dissipated: self.dissipated + evaluation.dissipated,
+            worn: [0, 1].map(|side| self.worn[side] + evaluation.worn.volumes[side]),
             kept: selection.kept_nodes(),
             tractions,
             carried: evaluation.carried,

@@ -13,7 +13,7 @@ mod sides;
 mod traction_field;
 
 pub use approach::approach;
-pub use traction_field::Selection;
+pub use traction_field::{Selection, deepest};
 
 use crate::{
     configuration::Configuration,
@@ -62,6 +62,7 @@ impl Selection {
     ) -> Self {
         let compliances = compliances(start);
         let depth = predicted.map_or(0.0, |predicted| approach(start, predicted));
+        let depth = depth + start.worn;
         let scope = Scope {
             compliances: &compliances,
             depth,
@@ -83,6 +84,7 @@ impl Selection {
             depth,
             partners,
             offsets: [Vec::new(), Vec::new()],
+            worn: [Vec::new(), Vec::new()],
             slip_freedoms: Vec::new(),
             fitted: None,
         }

@@ -22,11 +22,12 @@
 use striae_surface::node::SurfaceNode;
 
 use crate::{
-    common_mass::CommonMass,
+    common_mass::{CommonMass, SparseRow},
     interface::{Interface, Opponent},
     roles::{Choice, THETA_0},
     side::Side,
     transfer::{Share, Transfer},
+    wear_rows::wear_rows,
 };
 
 /// Pivot below which a kept node is weak.
@@ -89,6 +90,9 @@ pub struct TractionBasis {
     pub ramp: Vec<Weak>,
     /// Rows of `E` by place among the kept nodes, ascending.
     pub coupling: Vec<Vec<(u32, f64)>>,
+    /// Rows of `M` by place among the kept nodes, ascending: how wear at them opens the gaps, see
+    /// `wear_rows`. Empty for pairs without wear.
+    pub wear: Vec<Vec<(u32, f64)>>,
 }
 
 impl TractionBasis {
@@ -127,6 +131,7 @@ impl TractionBasis {
             kept,
             ramp: Vec::new(),
             coupling: Vec::new(),
+            wear: Vec::new(),
         };
         for (k, &KeptNode { side, node }) in basis.kept.iter().enumerate() {
             basis.index[side][node] = Some(k as u32);
@@ -140,19 +145,39 @@ impl TractionBasis {
         basis.ramp = basis.ramp(interface, mass, &transfer.released);
         let pressures = basis.ramp.iter().map(|weak| (weak.coefficient, &weak.row));
         basis.coupling = coupling(pressures, basis.kept.len());
+        if interface.wear != [0.0; 2] {
+            let rows = wear_rows(mass, &transfer, interface.wear, interface.share());
+            basis.wear = basis.wear(mass, &rows, &choice.kept);
+        }
         basis
+    }
+
+    /// Rows of `M`, from those of `w_k M` by place in the order of the common mass.
+    fn wear(&self, mass: &CommonMass, rows: &[SparseRow], kept: &[u32]) -> Vec<Vec<(u32, f64)>> {
+        let kept = kept.iter().zip(&self.weights);
+        kept.map(|(&place, weight)| {
+            let row = rows[place as usize].iter();
+            let mut row: Vec<(u32, f64)> = row
+                .map(|&(l, value)| (self.place(mass, l), value / weight))
+                .collect();
+            row.sort_by_key(|&(l, _)| l);
+            row
+        })
+        .collect()
     }
 
     /// A row by place among the kept nodes.
     fn numbered(&self, mass: &CommonMass, row: &[Share]) -> Vec<Share> {
-        let kept = |&(k, value): &Share| {
-            let (side, node) = mass.nodes[k as usize];
-            let k = self.index[side][node].expect("rows lead to kept nodes");
-            (k, value)
-        };
+        let kept = |&(k, value): &Share| (self.place(mass, k), value);
         let mut row: Vec<_> = row.iter().map(kept).collect();
         row.sort_by_key(|&(k, _)| k);
         row
+    }
+
+    /// Place among the kept nodes of one in the order of the common mass.
+    fn place(&self, mass: &CommonMass, k: u32) -> u32 {
+        let (side, node) = mass.nodes[k as usize];
+        self.index[side][node].expect("rows lead to kept nodes")
     }
 
     fn ramp(&self, interface: &Interface, mass: &CommonMass, released: &[Vec<Share>]) -> Vec<Weak> {

@@ -21,6 +21,8 @@ pub struct Tractions {
     pub bedded: [Vec<f64>; 2],
     /// Slip `sum |du|` of each node up to the last converged state, by side.
     pub accumulated: [Vec<f64>; 2],
+    /// Depth that has worn off each node up to the last converged state, by side.
+    pub worn: [Vec<f64>; 2],
     /// State `theta` of friction of each node at the last converged state, by side; zero before
     /// there is friction that depends on one.
     pub states: [Vec<f64>; 2],
@@ -39,6 +41,7 @@ impl Tractions {
             stuck: nodes.map(|count| vec![false; count]),
             bedded: nodes.map(|count| vec![0.0; count]),
             accumulated: nodes.map(|count| vec![0.0; count]),
+            worn: nodes.map(|count| vec![0.0; count]),
             states: nodes.map(|count| vec![0.0; count]),
             tau_n: nodes.map(|count| vec![[0.0; 2]; count]),
             labels: nodes.map(|count| vec![Label::default(); count]),
@@ -53,6 +56,14 @@ impl Tractions {
             if node.status != Status::Open {
                 *sum += node.slip.norm();
             }
+        }
+    }
+
+    /// Adds the depth that an increment that has converged has worn off.
+    pub fn wear_off(&mut self, depths: &[Vec<f64>; 2]) {
+        let worn = self.worn.iter_mut().flatten();
+        for (worn, depth) in worn.zip(depths.iter().flatten()) {
+            *worn += depth;
         }
     }
 

@@ -76,6 +76,7 @@ fn pair(a: Geometry, b: Geometry) -> ContactPair {
         search_distance: None,
         has_faces: false,
         one_body: false,
+        wear: [0.0; 2],
     }
 }
 

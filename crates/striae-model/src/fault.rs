@@ -252,6 +252,30 @@ pub enum FaultKind {
         /// The pair.
         pair: String,
     },
+    /// A rigid side that wears.
+    #[error(
+        "pair `{pair}`: `wear` states a coefficient for its rigid side, which keeps its shape. State one for the deformable side alone"
+    )]
+    RigidWear {
+        /// The pair.
+        pair: String,
+    },
+    /// Wear of collocated contact.
+    #[error(
+        "pair `{pair}` is collocated and states `wear`, which opens weighted gaps only; remove one of the settings"
+    )]
+    CollocatedWear {
+        /// The pair.
+        pair: String,
+    },
+    /// Wear without friction.
+    #[error(
+        "pair `{pair}` states `wear`, but is frictionless in all steps: sides wear where they slip with friction. State a friction law, with a small coefficient if need be, or remove `wear`"
+    )]
+    FrictionlessWear {
+        /// The pair.
+        pair: String,
+    },
     /// Two pairs join the same surfaces.
     #[error("pair `{pair}` joins the same two surfaces as pair `{other}`")]
     SamePair {

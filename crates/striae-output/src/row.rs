@@ -58,6 +58,11 @@ pub fn state_row(problem: &Problem, state: &State) -> Vec<(String, f64)> {
     for (pair, report) in pairs(problem, state).iter().enumerate() {
         add_pair(&mut row, report);
         let name = &report.name;
+        if problem.pairs[pair].contact.wears() {
+            for (letter, volume) in ["a", "b"].iter().zip(state.pairs[pair].worn) {
+                row.push((format!("pair.{name}.worn_volume_{letter}"), volume));
+            }
+        }
         let sides = resolved(problem, state, pair).into_iter().zip(["a", "b"]);
         for (of_side, letter) in sides.filter_map(|(side, letter)| Some((side?, letter))) {
             row.push((format!("pair.{name}.along_{letter}"), of_side.along));

@@ -115,6 +115,8 @@ pub enum ContactField {
     SlipRate,
     /// Length of the way slipped since the start.
     AccumulatedSlip,
+    /// Depth that has worn off since the start, of pairs that wear.
+    WornDepth,
     /// State of friction that depends on rate and state.
     FrictionState,
     /// Friction work per area since the start.
@@ -130,13 +132,15 @@ pub enum ContactField {
 }
 
 impl ContactField {
-    /// Fields written by default: all except the slip rate and the state of friction.
-    pub const USUAL: [Self; 10] = [
+    /// Fields written by default: all except the slip rate and the state of friction; the depth that
+    /// has worn off of pairs that wear.
+    pub const USUAL: [Self; 11] = [
         Self::Gap,
         Self::Traction,
         Self::MeanTraction,
         Self::Slip,
         Self::AccumulatedSlip,
+        Self::WornDepth,
         Self::FrictionWork,
         Self::Normal,
         Self::Texture,

@@ -61,6 +61,9 @@ pub(crate) fn write_surface(
         time: state.time,
     };
     for field in wanted.fields {
+        if *field == ContactField::WornDepth && !geometry.contact.wears() {
+            continue;
+        }
         let arrays = arrays(*field, state, (pair, side), wanted);
         let named = arrays
             .into_iter()
@@ -108,6 +111,10 @@ fn arrays(
             vec![("slip_rate", Values::Vectors(rates))]
         }
         ContactField::AccumulatedSlip => vec![("accumulated_slip", sums(wanted, 0, 1.0))],
+        ContactField::WornDepth => {
+            let worn = &state.pairs[pair].tractions.worn[side];
+            vec![("worn_depth", Values::Scalars(worn.clone()))]
+        }
         ContactField::FrictionState => {
             let states = &state.pairs[pair].tractions.states[side];
             vec![("friction_state", Values::Scalars(states.clone()))]

@@ -8,6 +8,9 @@
 //! wear depth             k sum p |du|        (Archard 1953, doi:10.1063/1.1721448)
 //! ```
 //!
+//! Contact knows nothing of this wear depth, an estimate of the first order. Depths that open gaps
+//! are part of the state, see `striae_contact::wear`.
+//!
 //! with pressure and traction at the end of the increment. Open nodes do not slip.
 
 use serde::{Deserialize, Serialize};

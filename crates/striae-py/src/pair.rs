@@ -56,6 +56,10 @@ impl Pair {
         Ok(Self(self.0.clone().interference(value, along.curve()?)))
     }
 
+    fn wearing(&self, a: f64, b: f64) -> Self {
+        Self(self.0.clone().wear(a, b))
+    }
+
     fn resolved(&self) -> Self {
         Self(self.0.clone().initial(Initial::Resolve))
     }

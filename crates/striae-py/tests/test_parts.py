@@ -117,6 +117,31 @@ def test_slip_surfaces_have_the_coefficients() -> None:
     assert np.allclose(st.Frictionless().slip_surface().friction, 0)
 
 
+def test_wear_takes_its_share_of_the_friction_work(pad: st.Body) -> None:
+    wear, mu = 2e-8, 0.3
+
+    def run(wear: object) -> st.Run:
+        floor = st.Plane("floor")
+        pair = st.Pair(pad["zmin"], floor, st.Coulomb(mu), wear=wear)  # type: ignore[arg-type]
+        model = st.Model([pad], [floor], [pair])
+        model.step("press", pad["zmax"].displace(x=0, y=0, z=-0.02), increments=1)
+        model.step("drag", pad["zmax"].displace(x=0.6), increments=6)
+        return model.run()
+
+    worn = run(wear)
+    volume = worn.history["pair.pad-floor.worn_volume_a"]
+    assert volume[-1] == pytest.approx(wear / mu * worn.history["pair.pad-floor.dissipated"][-1])
+    assert volume[-1] > 0 and worn.history["pair.pad-floor.worn_volume_b"][-1] == 0
+    assert np.array_equal(volume, run((wear, 0)).history["pair.pad-floor.worn_volume_a"])
+    assert worn[-1].pair(0).force[2] < 0.99 * run(None)[-1].pair(0).force[2]
+    with pytest.raises(st.ModelError, match="deformable side alone"):
+        run((wear, wear))
+    with pytest.raises(st.ModelError, match="at least 0"):
+        run(-wear)
+    with pytest.raises(st.ModelError, match="a number is needed"):
+        run("much")
+
+
 def drift(texture: object, rubber: st.NeoHookean) -> float:
     """Sideways over forward friction of a block dragged along x on a textured floor."""
     body = st.Body("pad", st.block(divisions=(2, 2, 2)), rubber)

@@ -98,6 +98,7 @@ fn model(count: usize) -> Model {
             search_distance: None,
             initial: Initial::AsMeshed,
             interference: None,
+            wear: [0.0; 2],
             stabilised: false,
             feature_angle: None,
         }],

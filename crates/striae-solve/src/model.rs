@@ -204,6 +204,9 @@ pub struct Pair {
     pub initial: Initial,
     /// By how much the sides interfere, measured from faces that touch.
     pub interference: Option<InterferenceFit>,
+    /// Coefficients of wear of the sides over their hardness: the depth that wears off per
+    /// pressure and slip, an inverse stress; zero for a side that does not wear.
+    pub wear: [f64; 2],
     /// `true` if viscous forces carry bodies without other restraints across the gap, see
     /// [`crate::stabilisation`].
     pub stabilised: bool,

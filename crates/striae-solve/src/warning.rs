@@ -35,6 +35,7 @@ use serde::{Deserialize, Serialize};
 use striae_contact::{
     initial::Fit,
     interference::{Interference, Kind as Interfering, SHARE},
+    selection::deepest,
     side::Side,
 };
 use striae_law::bulk::Material;
@@ -401,7 +402,8 @@ impl Judgement {
         let bound = if unfelt { UNFELT } else { SHARE };
         let mut inside = within(problem, pair, after.into(), bound);
         if !inside.is_empty() {
-            inside = beyond(inside, meant_depth(problem, pair), bound);
+            let worn = deepest(&after.pairs[pair].tractions.worn);
+            inside = beyond(inside, meant_depth(problem, pair, worn), bound);
         }
         let depths = inside.iter().map(|found| found.share());
         let deepest = depths.fold(0.0, f64::max);

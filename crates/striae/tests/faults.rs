@@ -104,6 +104,7 @@ fn joined(name: &str, a: ContactSurface, b: ContactSurface, friction: Friction) 
         search_distance: None,
         initial: Initial::AsMeshed,
         interference: None,
+        wear: [0.0; 2],
         stabilised: false,
         feature_angle: None,
     }

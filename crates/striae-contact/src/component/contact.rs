@@ -194,6 +194,7 @@ fn member(stated: &Pair, positions: &[Vec3]) -> Result<Member, Faults> {
         search_distance: stated.search_distance,
         has_faces: false,
         one_body: false,
+        wear: [0.0; 2],
     };
     let friction = stated.friction.clone();
     Ok(Member {

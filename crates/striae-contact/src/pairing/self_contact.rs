@@ -176,6 +176,7 @@ mod tests {
             search_distance: Some(0.2),
             has_faces: true,
             one_body: false,
+            wear: [0.0; 2],
         };
         let at = Configuration::new(&pair, [x, Vec::new()], Placement::at_rest());
         let compliances = compliances(&at);

@@ -160,6 +160,7 @@ impl Gathered {
             overlaps: &self.overlaps,
             opposing: [&self.opposing[0], &self.opposing[1]],
             opponent,
+            wear: configuration.pair.wear,
         };
         match roles {
             Roles::After(_) => TractionBasis::new(&interface),

@@ -18,6 +18,12 @@ use crate::{
 /// Gap up to which facets count as in contact, over their common size.
 const TOUCHING: f64 = 0.05;
 
+/// Largest sum of the depths of both sides.
+pub fn deepest(worn: &[Vec<f64>; 2]) -> f64 {
+    let largest = |side: &Vec<f64>| side.iter().copied().fold(0.0, f64::max);
+    worn.iter().map(largest).sum()
+}
+
 /// The traction field of a pair in an increment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Selection {
@@ -31,6 +37,8 @@ pub struct Selection {
     pub partners: Vec<Option<Partner>>,
     /// Overlap of the meshes at the nodes that is not removed yet, by side; empty if there is none.
     pub offsets: [Vec<f64>; 2],
+    /// Depth that has worn off the nodes at the start, by side; empty for pairs without wear.
+    pub worn: [Vec<f64>; 2],
     /// In which directions friction of the kept nodes is determined; empty where it is in all.
     pub slip_freedoms: Vec<SlipFreedom>,
     /// Faces that are taken as touching, and how much they interfere.
@@ -125,18 +133,37 @@ impl Selection {
         &self.basis.coupling
     }
 
+    /// Rows of `M` by place among the kept nodes; empty for pairs without wear.
+    pub fn wear(&self) -> &[Vec<(u32, f64)>] {
+        &self.basis.wear
+    }
+
     /// Point opposite to a kept node at the start.
     pub fn partner(&self, k: usize) -> Option<Partner> {
         self.partners[k]
     }
 
     /// Shares of the corners of paired facets in what is added to their gap: what is left of the
-    /// overlap of the meshes, or an interference.
+    /// overlap of the meshes, or an interference, and what has worn off.
     pub(crate) fn offsets_at(
         &self,
         configuration: &Configuration,
         paired: &PairedFacets,
     ) -> [f64; 8] {
+        let mut offsets = self.fitted_at(configuration, paired);
+        if self.worn.iter().any(|side| !side.is_empty()) {
+            for (corner, offset) in offsets.iter_mut().enumerate() {
+                if let Some((side, node)) = paired.node(configuration, corner) {
+                    // All of it: the depth belongs to the material of its own side.
+                    *offset += self.worn[side][node];
+                }
+            }
+        }
+        offsets
+    }
+
+    /// Shares of the corners in what is left of an overlap, or in an interference.
+    fn fitted_at(&self, configuration: &Configuration, paired: &PairedFacets) -> [f64; 8] {
         if let Some(fitted) = &self.fitted {
             return fitted.at_corners(paired);
         }
@@ -196,7 +223,7 @@ impl Selection {
         let scope = Scope {
             // Bodies that approached faster than foreseen may already be deeper than the search of
             // this increment.
-            depth: self.depth.max(approach(start, configuration)),
+            depth: (self.depth).max(approach(start, configuration) + deepest(&self.worn)),
             ..self.scope()
         };
         let paired = paired_facets(configuration, scope, &|_| SegmentDerivatives::None, |_| {

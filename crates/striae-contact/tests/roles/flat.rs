@@ -132,6 +132,7 @@ impl Pair {
                 Some(whole) => Opponent::Rigid { whole },
                 None => Opponent::Deformable,
             },
+            wear: [0.0; 2],
         }
     }
 }

@@ -64,8 +64,14 @@ fn lower_pair(
         raw::SecondSide::Itself => Some((ContactSurface::Itself, None)),
         raw::SecondSide::Other(side) => lower_side(side, surfaces, faults),
     });
-    let ((a, texture_a), (b, texture_b)) = match (a?, b?) {
-        (a @ (ContactSurface::Rigid(_), _), b @ (ContactSurface::Deformable { .. }, _)) => (b, a),
+    let (a, b) = (a?, b?);
+    let wear = pair.wear.as_ref();
+    let mut wear = wear.map_or([0.0; 2], |wear| lower_wear(&wear.value, [&a.0, &b.0]));
+    let ((a, texture_a), (b, texture_b)) = match (a, b) {
+        (a @ (ContactSurface::Rigid(_), _), b @ (ContactSurface::Deformable { .. }, _)) => {
+            wear.reverse();
+            (b, a)
+        }
         sides => sides,
     };
     let textures = [texture_a, texture_b];
@@ -96,9 +102,24 @@ fn lower_pair(
             .as_ref()
             .map_or(Initial::AsMeshed, |initial| lower_initial(&initial.value)),
         interference,
+        wear,
         stabilised: pair.stabilise.as_ref().is_some_and(|truth| truth.value.0),
         feature_angle: pair.feature_angle.as_ref().map(|angle| angle.value.0),
     })
+}
+
+/// Coefficients of the sides as they are written.
+fn lower_wear(raw: &raw::Wear, sides: [&ContactSurface; 2]) -> [f64; 2] {
+    match raw {
+        raw::Wear::All(coefficient) => sides.map(|side| match side {
+            ContactSurface::Deformable { .. } => coefficient.0,
+            ContactSurface::Rigid(_) | ContactSurface::Itself => 0.0,
+        }),
+        raw::Wear::Sides(sides) => [&sides.a, &sides.b].map(|stated| {
+            let stated = stated.as_ref();
+            stated.map_or(0.0, |coefficient| coefficient.value.0)
+        }),
+    }
 }
 
 fn lower_interference(

@@ -98,6 +98,7 @@ fn contact_field(raw: raw::ContactField) -> ContactField {
         raw::ContactField::Slip => ContactField::Slip,
         raw::ContactField::SlipRate => ContactField::SlipRate,
         raw::ContactField::AccumulatedSlip => ContactField::AccumulatedSlip,
+        raw::ContactField::WornDepth => ContactField::WornDepth,
         raw::ContactField::FrictionState => ContactField::FrictionState,
         raw::ContactField::FrictionWork => ContactField::FrictionWork,
         raw::ContactField::Normal => ContactField::Normal,

@@ -38,6 +38,10 @@ table! {
         /// between their facets, and are then pressed apart by this much in the course of the first
         /// step. Negative for a clearance. Default: none, gaps are those of the meshes.
         optional interference: Interference,
+        /// Wear of the sides, by which gaps open: the depth that wears off per pressure and slip
+        /// (Archard), the coefficient of wear over the hardness, an inverse stress. One number for
+        /// all deformable sides, or a table with one for each. Default: none.
+        optional wear: Wear,
         /// `true`: viscous forces between the sides carry bodies without other restraints across a
         /// gap, in steps without inertia. They fall to zero in the course of each step. Default:
         /// false.
@@ -94,6 +98,38 @@ impl Read for Interference {
 
     fn form() -> Form {
         Form::Any(vec![Number::form(), InterferenceAlong::form()])
+    }
+}
+
+/// Coefficients of wear over the hardness.
+#[derive(Clone, Debug)]
+pub(crate) enum Wear {
+    /// Of all deformable sides.
+    All(NonNegative),
+    /// Of each side.
+    Sides(WearOfSides),
+}
+
+table! {
+    /// Wear of each side: depth per pressure and slip, an inverse stress.
+    WearOfSides {
+        /// Coefficient of side `a`. Default: 0.
+        optional a: NonNegative,
+        /// Coefficient of side `b`. Default: 0.
+        optional b: NonNegative,
+    }
+}
+
+impl Read for Wear {
+    fn read(value: &Value<'_>, place: &Place, faults: &mut FaultList<'_>) -> Option<Self> {
+        match value.get_ref() {
+            DeValue::Table(_) => read_table(value, place, faults).map(Self::Sides),
+            _ => NonNegative::read(value, place, faults).map(Self::All),
+        }
+    }
+
+    fn form() -> Form {
+        Form::Any(vec![NonNegative::form(), WearOfSides::form()])
     }
 }
 

@@ -18,9 +18,9 @@ table! {
         optional bodies: Vec<At<Text>>,
         /// Fields of bodies. Default: `displacement`, `velocity`, `cauchy-stress`, `von-mises` and `history-variables`.
         optional body_fields: Vec<At<BodyField>>,
-        /// Fields of contact surfaces. Default: all except `slip-rate` and `friction-state`.
+        /// Fields of contact surfaces. Default: all except `slip-rate` and `friction-state`; `worn-depth` of pairs that wear.
         optional contact_fields: Vec<At<ContactField>>,
-        /// Archard's coefficient `k`, wear depth over pressure and slip: writes the field `wear_depth` of contact surfaces. Default: none.
+        /// Archard's coefficient `k`, wear depth over pressure and slip: writes the field `wear_depth` of contact surfaces, the depth that would wear off if it did not change contact. For wear that opens gaps see `wear` of a pair. Default: none.
         optional wear_coefficient: Positive,
         /// Places whose displacement and stress are written to `probes.csv` after every increment.
         optional probes: Vec<At<Probe>>,
@@ -79,6 +79,8 @@ words! {
         SlipRate = "slip-rate",
         /// Length of the path slipped since the start.
         AccumulatedSlip = "accumulated-slip",
+        /// Depth that has worn off since the start, of pairs that wear.
+        WornDepth = "worn-depth",
         /// State of friction that depends on rate and state.
         FrictionState = "friction-state",
         /// Friction work per area since the start.

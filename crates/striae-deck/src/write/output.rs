@@ -67,6 +67,7 @@ fn contact_word(field: ContactField) -> &'static str {
         ContactField::Slip => "slip",
         ContactField::SlipRate => "slip-rate",
         ContactField::AccumulatedSlip => "accumulated-slip",
+        ContactField::WornDepth => "worn-depth",
         ContactField::FrictionState => "friction-state",
         ContactField::FrictionWork => "friction-work",
         ContactField::Normal => "normal",

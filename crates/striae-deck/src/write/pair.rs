@@ -35,6 +35,10 @@ impl Writer<'_> {
                 let value = number(stated.value);
                 format!("interference = {{ value = {value}{curve} }}\n")
             });
+        let wear = match pair.wear {
+            [0.0, 0.0] => String::new(),
+            [a, b] => format!("wear = {{ a = {}, b = {} }}\n", number(a), number(b)),
+        };
         let search = pair.search_distance.map_or_else(String::new, |distance| {
             format!("search_distance = {}\n", number(distance))
         });
@@ -43,7 +47,7 @@ impl Writer<'_> {
         });
         format!(
             "\n[[pair]]\nname = {}\na = {a}\nb = {b}\nfriction = {friction}\n\
-             enforcement = \"{enforcement}\"\n{search}initial = \"{initial}\"\n{interference}stabilise = {}\n{features}",
+             enforcement = \"{enforcement}\"\n{search}initial = \"{initial}\"\n{interference}{wear}stabilise = {}\n{features}",
             text(&pair.name),
             pair.stabilised
         )

@@ -94,6 +94,7 @@ pub struct PairBuilder {
     search_distance: Option<f64>,
     initial: Initial,
     interference: Option<InterferenceFit>,
+    wear: [f64; 2],
     stabilised: bool,
     feature_angle: Option<f64>,
 }
@@ -108,6 +109,7 @@ pub fn pair(name: impl Into<String>, a: SideBuilder, b: SideBuilder) -> PairBuil
         search_distance: None,
         initial: Initial::AsMeshed,
         interference: None,
+        wear: [0.0; 2],
         stabilised: false,
         feature_angle: None,
     }
@@ -145,6 +147,13 @@ impl PairBuilder {
         self
     }
 
+    /// Sets the coefficients of wear of the sides `a` and `b` over their hardness: the depth that
+    /// wears off per pressure and slip, an inverse stress.
+    pub fn wear(mut self, a: f64, b: f64) -> Self {
+        self.wear = [a, b];
+        self
+    }
+
     /// Lets viscous forces carry bodies across gaps.
     pub fn stabilised(mut self) -> Self {
         self.stabilised = true;
@@ -171,11 +180,13 @@ impl PairBuilder {
     ) -> Option<Pair> {
         let [mut a, mut b] = sides(&self.sides, &Path::part("pairs", index), names, faults)?;
         let mut textures = self.sides.each_ref().map(|side| side.texture.clone());
+        let mut wear = self.wear;
         match (&a, &b) {
             (_, ContactSurface::Itself) => {}
             (ContactSurface::Rigid(_), _) => {
                 std::mem::swap(&mut a, &mut b);
                 textures.reverse();
+                wear.reverse();
             }
             _ => {}
         }
@@ -189,6 +200,7 @@ impl PairBuilder {
             search_distance: self.search_distance,
             initial: self.initial,
             interference: self.interference.clone(),
+            wear,
             stabilised: self.stabilised,
             feature_angle: self.feature_angle,
         })

@@ -165,6 +165,10 @@ fn of_pair(pair: &Pair, path: &Path, faults: &mut List) {
         faults.range(path.clone(), &what, interference.value, FINITE);
         curve(&interference.curve, path, faults);
     }
+    for (coefficient, side) in pair.wear.into_iter().zip(["a", "b"]) {
+        let what = format!("the coefficient of wear of side `{side}` of pair `{name}`");
+        faults.range(path.clone().field("wear"), &what, coefficient, NOT_NEGATIVE);
+    }
     for (side, paint) in pair.textures.iter().enumerate() {
         let path = || path.clone().field("textures").index(side);
         match paint {

@@ -49,6 +49,9 @@ pub(super) fn check(draft: &Draft<'_>, faults: &mut List) -> Positions {
             };
             faults.push(path.clone().field("interference"), kind);
         }
+        if let Some(kind) = wear(draft, index, pair) {
+            faults.push(path.clone().field("wear"), kind);
+        }
         if let Some(other) = sound.iter().find(|other| same_sides(other, pair)) {
             let kind = FaultKind::SamePair {
                 pair: pair.name.clone(),
@@ -163,6 +166,7 @@ fn unsuited(pair: &Pair) -> Option<(&'static str, FaultKind)> {
         true if pair.interference.is_some() => {
             Some(("interference", on_itself("has no `interference`")))
         }
+        true if pair.wear != [0.0; 2] => Some(("wear", on_itself("has no `wear`"))),
         true if pair.stabilised => {
             let why = "does not restrain the body, so `stabilise` has no effect";
             Some(("stabilised", on_itself(why)))
@@ -173,6 +177,26 @@ fn unsuited(pair: &Pair) -> Option<(&'static str, FaultKind)> {
         }
         _ => None,
     }
+}
+
+/// Reason why the sides of a pair cannot wear as they are to.
+fn wear(draft: &Draft<'_>, index: usize, pair: &Pair) -> Option<FaultKind> {
+    if pair.wear == [0.0; 2] || pair.is_on_itself() {
+        return None;
+    }
+    let name = pair.name.clone();
+    if matches!(pair.b, ContactSurface::Rigid(_)) && pair.wear[1] != 0.0 {
+        return Some(FaultKind::RigidWear { pair: name });
+    }
+    if pair.enforcement == Enforcement::Collocated {
+        return Some(FaultKind::CollocatedWear { pair: name });
+    }
+    let steps = || draft.steps.iter();
+    let all_known = draft.known == Known::Whole && steps().all(|step| step.known == Known::Whole);
+    let mut changes = steps().flat_map(|step| &step.step.frictions);
+    let is_frictionless = pair.friction.is_frictionless()
+        && !changes.any(|(id, friction)| id.0 == index && !friction.is_frictionless());
+    (all_known && is_frictionless).then_some(FaultKind::FrictionlessWear { pair: name })
 }
 
 /// Notes textures given at points or nodes of a plane, which has no nodes.

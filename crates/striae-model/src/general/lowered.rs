@@ -190,6 +190,7 @@ impl Scene<'_> {
                     search_distance: all.search_distance,
                     initial: if own { Initial::AsMeshed } else { all.initial },
                     interference: None,
+                    wear: [0.0; 2],
                     stabilised: all.stabilised && !own,
                     feature_angle: Some(all.feature_angle),
                 });

@@ -31,6 +31,7 @@ class Pair(Made):
         initial: Union[Literal["as-meshed", "close", "resolve"], float] = "as-meshed",
         interference: Optional[float] = None,
         curve: Curve = "ramp",
+        wear: Union[float, tuple[float, float], None] = None,
         stabilise: bool = False,
         enforcement: Literal["weighted", "collocated"] = "weighted",
         search_distance: Optional[float] = None,
@@ -50,6 +51,9 @@ class Pair(Made):
             facets, and are pressed apart by this much in the first step; negative for a clearance.
             By default gaps are those of the meshes.
         curve: how the interference is approached in the first step.
+        wear: of the sides, by which gaps open: the depth that wears off per pressure and slip
+            (Archard), the coefficient of wear over the hardness (1/stress). One number for all
+            deformable sides, or one for ``a`` and one for ``b``; nothing wears by default.
         stabilise: if true, viscous forces carry bodies without other restraints across a gap, in
             steps without inertia; they fall to zero within the step.
         enforcement: ``weighted``, or ``collocated`` as in the paper, for comparison.
@@ -92,6 +96,8 @@ class Pair(Made):
         if interference is not None:
             value, along = check.number(interference, "interference"), check.curve(curve, "curve")
             made = made.interfering(value, along)
+        if wear is not None:
+            made = made.wearing(*_wear(wear, [a, b]))
         if check.word(enforcement, ("weighted", "collocated"), "enforcement") == "collocated":
             made = made.collocated()
         if search_distance is not None:
@@ -111,6 +117,16 @@ class Pair(Made):
 def _change(name: str, friction: Friction) -> Condition:
     law = check.kind(friction, Friction, "friction")._native
     return Condition(f"friction of {name}", lambda step: step.friction(name, law))
+
+
+def _wear(
+    wear: Union[float, tuple[float, float]], sides: list[Union[BodySet, Rigid, str]]
+) -> list[float]:
+    """Coefficients of both sides; one number is that of all sets of bodies."""
+    if isinstance(wear, (tuple, list)):
+        return check.vector(wear, "wear", 2)
+    coefficient = check.number(wear, "wear")
+    return [coefficient if isinstance(side, BodySet) else 0.0 for side in sides]
 
 
 def _side(side: Union[BodySet, Rigid]) -> tuple[str, Optional[str]]:

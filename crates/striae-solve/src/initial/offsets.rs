@@ -104,11 +104,11 @@ impl Offsets {
     }
 }
 
-/// Depth in which faces of a pair are that interfere as they are meant to: the deepest overlap of
-/// their meshes and the interference; zero for other pairs.
-pub fn meant_depth(problem: &Problem, pair: usize) -> f64 {
+/// Depth in which faces of a pair are that interfere as they are meant to, after the depth `worn`
+/// has worn off them: with an interference that and the deepest overlap of their meshes besides.
+pub fn meant_depth(problem: &Problem, pair: usize, worn: f64) -> f64 {
     let Some(interference) = &problem.model.pairs[pair].interference else {
-        return 0.0;
+        return worn;
     };
     let start = State::undeformed(problem);
     let stage = Stage {
@@ -116,7 +116,7 @@ pub fn meant_depth(problem: &Problem, pair: usize) -> f64 {
         thickness: &thickness(problem, pair, &start.positions),
     };
     let drawn = inside(&stage, 0.0).into_iter().map(|found| found.depth);
-    drawn.fold(0.0, f64::max) + interference.largest(problem.plans[0].start)
+    drawn.fold(0.0, f64::max) + interference.largest(problem.plans[0].start) + worn
 }
 
 /// The deepest overlap over the thickness of the body, if it is more than half of it, with that

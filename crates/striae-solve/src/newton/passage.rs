@@ -15,7 +15,7 @@ use striae_contact::{
     evaluation::Evaluation,
     interference::{Interference, Kind, Place, SHARE, Spot},
     pair::PairedSurface,
-    selection::approach,
+    selection::{approach, deepest},
     side::Side,
 };
 use striae_mesh::FacetId;
@@ -47,21 +47,22 @@ pub(super) fn passage(
 ) -> Result<Vec<Vec<Interference>>, CutBack> {
     let mut all = Vec::new();
     for pair in 0..setting.selections.len() {
-        let found = found(setting, trial, pair);
+        let worn = deepest(&setting.selections[pair].worn) + deepest(&contacts[pair].worn.depths);
+        let found = found(setting, trial, pair, worn);
         missed(setting, trial, pair, &contacts[pair], &found).map_or(Ok(()), Err)?;
         all.push(found);
     }
     Ok(all)
 }
 
-fn found(setting: &Setting, trial: &Trial, pair: usize) -> Vec<Interference> {
+fn found(setting: &Setting, trial: &Trial, pair: usize, worn: f64) -> Vec<Interference> {
     let [start, end] = ends(setting, trial);
     let problem = setting.context.problem;
     let found = between(problem, pair, start, end, SHARE);
     if found.is_empty() {
         return found;
     }
-    beyond(found, meant_depth(problem, pair), SHARE)
+    beyond(found, meant_depth(problem, pair, worn), SHARE)
 }
 
 /// Positions at the start of the increment and in the trial state.

@@ -7,7 +7,7 @@ use striae_contact::{
     evaluation::Evaluation,
     pair_state::{PairState, Predicted, fit},
     placement::Placement,
-    selection::Selection,
+    selection::{Selection, deepest},
     side::Side,
     unknowns::{NodeResult, Status, Tractions},
 };
@@ -73,7 +73,13 @@ fn without_freedoms(
         .iter()
         .enumerate()
         .map(|(pair, of_pair)| {
+            let wears = context.pairs[pair].wears();
+            let worn = match wears {
+                true => of_pair.tractions.worn.clone(),
+                false => [Vec::new(), Vec::new()],
+            };
             let start = context.configuration(pair, &state.positions, &state.rigid);
+            let start = start.worn(deepest(&worn));
             let prescribed = &context.fixed_on_pair[pair];
             let chosen = match given {
                 None => Selection::new(&start, None, &of_pair.kept, prescribed),
@@ -82,9 +88,13 @@ fn without_freedoms(
             let selection = Selection {
                 offsets: context.offsets_left(pair, s),
                 fitted: context.fitted(pair, s),
+                worn,
                 ..chosen
             };
-            let tractions = of_pair.started(&selection, predicted);
+            let mut tractions = of_pair.started(&selection, predicted);
+            if wears {
+                press(&selection, &of_pair.carried, &mut tractions);
+            }
             (selection, tractions)
         })
         .unzip();
@@ -102,9 +112,12 @@ pub(super) fn reselected(setting: &Setting, trial: &Trial, contacts: &[Evaluatio
             let had = &setting.selections[pair];
             let kept = had.kept_nodes();
             let prescribed = &setting.context.fixed_on_pair[pair];
+            let worn = deepest(&had.worn);
+            let (start, latest) = (start.worn(worn), latest.worn(worn));
             let selection = Selection {
                 offsets: had.offsets.clone(),
                 fitted: had.fitted.clone(),
+                worn: had.worn.clone(),
                 ..Selection::new(&start, Some(&latest), &kept, prescribed)
             };
             let mut tractions = trial.tractions[pair].clone();
@@ -212,4 +225,13 @@ fn with_configurations<'a>(
         let latest = context.configuration(pair, &trial.positions, &trial.rigid);
         (start, latest)
     })
+}
+
+/// Gives kept nodes the pressure that acts on them: what wore in the increment before had a part in
+/// it beside their unknowns, and is part of the gap from now on.
+fn press(selection: &Selection, carried: &[Vec<[f64; 3]>; 2], tractions: &mut Tractions) {
+    for kept in selection.kept() {
+        let (side, node) = kept.place();
+        tractions.nodes[side][node][0] = carried[side][node][0];
+    }
 }

@@ -415,6 +415,7 @@ pub(super) fn contact_pair(sides: [(&Mesh, &[Face]); 2], within: Option<f64>) ->
         search_distance: within,
         has_faces: false,
         one_body: false,
+        wear: [0.0; 2],
     }
 }
 

@@ -146,6 +146,7 @@ pub fn model(case: &Case, depth: f64) -> Model {
         search_distance: None,
         initial: Initial::AsMeshed,
         interference: None,
+        wear: [0.0; 2],
         stabilised: false,
         feature_angle: None,
     };

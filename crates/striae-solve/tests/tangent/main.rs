@@ -14,6 +14,7 @@ mod table;
 mod pair;
 mod placed;
 mod whole;
+mod worn;
 
 mod contact;
 mod creeping;

@@ -135,6 +135,7 @@ impl<'a> PairFunction<'a> {
             slipped: self.counts.map(|count| vec![false; count]),
             bedded: self.counts.map(|count| vec![0.5; count]),
             accumulated: self.counts.map(|count| vec![0.1; count]),
+            worn: self.counts.map(|count| vec![0.0; count]),
             states: self.counts.map(|count| vec![0.7; count]),
             // Every other one, so that both terms of the ramp count.
             stuck: self

@@ -398,6 +398,7 @@ fn pair(name: &str, a: ContactSurface, b: ContactSurface, friction: Friction) ->
         search_distance: None,
         initial: Initial::AsMeshed,
         interference: None,
+        wear: [0.0; 2],
         stabilised: false,
         feature_angle: None,
     }

@@ -104,6 +104,7 @@ fn whole(bodies: [&Body; 2]) -> Pair {
         search_distance: None,
         initial: Initial::AsMeshed,
         interference: None,
+        wear: [0.0; 2],
         stabilised: false,
         feature_angle: None,
     }

@@ -120,6 +120,14 @@ fn a_run_of_bodies_that_remember_is_the_same_in_pieces() {
 }
 
 #[test]
+fn a_run_of_sides_that_wear_is_the_same_in_pieces() {
+    let pair = "name = \"interface\"\n";
+    let text = QUASI_STATIC.replace(pair, &format!("{pair}wear = {{ a = 2e-7, b = 1e-7 }}\n"));
+    assert_ne!(text, QUASI_STATIC);
+    assert_same_in_pieces(&text, 10);
+}
+
+#[test]
 fn a_run_on_older_factors_is_the_same_in_pieces() {
     let summary = assert_same_in_pieces(KEPT, 5);
     let count = |of: &Value| of.as_u64().unwrap();
