@@ -15,6 +15,8 @@ pub enum Part {
     Pair,
     /// A tie.
     Tie,
+    /// Springs.
+    Spring,
     /// A step.
     Step,
 }

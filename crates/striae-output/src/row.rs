@@ -9,6 +9,7 @@ use striae_solve::{
     problem::Problem,
     report::{PairReport, TieReport, bodies, held_reactions, pairs, rigid_bodies, ties},
     resolved::resolved,
+    spring::springs,
     state::State,
 };
 
@@ -66,6 +67,12 @@ pub fn state_row(problem: &Problem, state: &State) -> Vec<(String, f64)> {
     }
     for tie in ties(problem, state) {
         add_tie(&mut row, &tie);
+    }
+    for spring in springs(problem, state) {
+        let name = format!("spring.{}", spring.name);
+        row.push((format!("{name}.tension"), spring.tension));
+        row.push((format!("{name}.elongation"), spring.elongation));
+        add_vector(&mut row, &format!("{name}.force"), &spring.force);
     }
     for (name, force) in held_reactions(problem, state) {
         add_vector(&mut row, &format!("reaction.{name}"), &force);

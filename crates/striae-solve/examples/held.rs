@@ -102,6 +102,7 @@ fn model(count: usize) -> Model {
             feature_angle: None,
         }],
         ties: Vec::new(),
+        springs: Vec::new(),
         steps: Vec::new(),
         solver: Solver {
             backend: Backend::Condensed,

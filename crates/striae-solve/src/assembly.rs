@@ -12,6 +12,7 @@ mod loads;
 mod measure;
 mod places;
 mod scatter;
+mod springs;
 mod stabilisation;
 mod start;
 mod terms;
@@ -280,7 +281,7 @@ fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
 }
 
 impl System<'_> {
-    /// Elements and loads, and on a rank that is alone everything but contact.
+    /// Elements, loads and springs, and on a rank that is alone everything but contact.
     fn bodies(
         &mut self,
         configurations: &[Configuration],
@@ -289,8 +290,9 @@ impl System<'_> {
         places: &ElementPlaces,
     ) -> Result<OfBodies, CutBack> {
         let imposed = setting.imposed;
-        let bodies = self.elements(places, trial, setting.state, imposed)?;
+        let mut bodies = self.elements(places, trial, setting.state, imposed)?;
         self.loads(configurations, trial, imposed)?;
+        self.springs(trial, setting.state, imposed, &mut bodies)?;
         if self.context.problem.share.is_alone() {
             self.beside_elements(imposed);
         }

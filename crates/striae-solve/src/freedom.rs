@@ -2,7 +2,7 @@
 //!
 //! Bodies and rigid bodies that are tied together move as one. A motion `u = c + w x (x - x0)`
 //! of each is stopped by rows `e . u(x) = 0`: of prescribed components and coordinates,
-//! of the normals of closed contact nodes and, where friction holds, of the tangents; between
+//! of the normals of closed contact nodes and, where friction holds, of the tangents, and of springs; between
 //! two bodies that both move, of the difference of their motions. What is left is the null
 //! space of the rows. Lengths are scaled by the size of the bodies.
 //!
@@ -23,6 +23,7 @@ use striae_surface::node::SurfaceNode;
 use crate::{
     assembly::StepContext,
     interference::{Positions, configuration, thickness},
+    node::GlobalNode,
     outcome::{FreeMotion, FreeMover},
     problem::Problem,
     state::State,
@@ -181,6 +182,7 @@ pub fn free_motion(
     let mut rows = Rows::new(context, at);
     rows.prescribed(context, at);
     rows.prescribed_coordinates(context, at);
+    rows.springs(context.problem, at);
     let slipping = slipping(contacts.iter().copied());
     for (pair, nodes) in contacts.iter().enumerate() {
         let is_rough = !context.plan.frictions[pair].is_frictionless();
@@ -308,6 +310,28 @@ impl Rows {
                 };
                 self.add(&[(component, row)]);
             }
+        }
+    }
+
+    /// Rows of springs, along which they resist the relative motion of their ends.
+    fn springs(&mut self, problem: &Problem, at: Positions) {
+        let bodies = problem.model.bodies.len();
+        for link in problem.links.iter().filter(|link| link.stiffness > 0.0) {
+            let Some(length) = link.length(at.nodes) else {
+                continue;
+            };
+            let of_node = |node: GlobalNode| match problem.tie_of[node] {
+                Some(rigid) => self.of[bodies + rigid],
+                None => self.of[problem.body_node(node).0],
+            };
+            let ends = [(Some(link.a), 1.0), (link.second(), -1.0)];
+            let ends = ends.into_iter().filter_map(|(node, sign)| {
+                let component = of_node(node?)?;
+                let along = length.gradient * sign;
+                Some((component, self.entries(component, &at.nodes[node?], &along)))
+            });
+            let entries: Vec<_> = ends.collect();
+            self.add(&entries);
         }
     }
 

@@ -38,6 +38,7 @@ pub mod sensitivity;
 pub mod share;
 pub mod skin;
 pub mod solid;
+pub mod spring;
 pub mod stabilisation;
 pub mod state;
 mod support;

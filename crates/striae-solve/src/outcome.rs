@@ -51,6 +51,14 @@ pub enum CutBack {
         /// Error of the load.
         error: crate::load::LoadError,
     },
+    /// The ends of a spring have met.
+    #[error(
+        "spring `{spring}`: its ends have met, so that it has no direction any more; give it a fixed direction, or place its ends further apart"
+    )]
+    Spring {
+        /// Name of the spring.
+        spring: String,
+    },
     /// A convected texture has no direction left at a node.
     #[error(
         "pair `{pair}`: the texture at {node} of body `{body}`, or opposite to it, has no tangential part any more"

@@ -36,6 +36,7 @@ use crate::{
     plan::{StepPlan, plans},
     share::Share,
     skin::Skin,
+    spring::Link,
     tie::{TieFault, Ties, first_nodes},
 };
 use contact_facet::contact_facets;
@@ -59,12 +60,14 @@ pub struct Problem {
     pub pairs: Vec<PairGeometry>,
     /// Conditions in force in each step.
     pub plans: Vec<StepPlan>,
-    /// Nodes tied to every rigid body, with its mass points.
+    /// Nodes tied to every rigid body, with its mass points and points where springs hold it.
     pub tied: Vec<Vec<GlobalNode>>,
     /// Rigid body that each global node is tied to.
     pub tie_of: Vec<Option<usize>>,
-    /// Point masses: global nodes that belong to no body, after all others.
+    /// Point masses: global nodes that belong to no body, after those that do.
     pub mass_points: Vec<(GlobalNode, f64)>,
+    /// Links of all springs.
+    pub links: Vec<Link>,
     /// Global nodes whose mass is moved to others.
     pub massless: Vec<bool>,
     /// Mass of every body.
@@ -168,6 +171,14 @@ pub enum ProblemError {
         /// The rigid body.
         rigid: String,
     },
+    /// Springs in a model that ranks share.
+    #[error(
+        "spring `{spring}`: springs cannot be divided among several processes; run the model in one process, or remove its springs"
+    )]
+    SharedSpring {
+        /// Name of the first one.
+        spring: String,
+    },
     /// A pair has a rigid first side or two rigid sides.
     #[error("pair `{pair}`: side `a` must be deformable")]
     RigidSide {
@@ -222,7 +233,8 @@ impl Problem {
             compositions.push(Composition::new(body, &of_body, materials));
             elements.push(of_body);
         }
-        let (tied, mass_points) = crate::rigid::ties(&model, &first_node, &mut reference);
+        let (mut tied, mass_points) = crate::rigid::ties(&model, &first_node, &mut reference);
+        let links = crate::spring::links(&model, &first_node, (&mut reference, &mut tied));
         massless.resize(reference.len(), false);
         let mut tie_of = vec![None; reference.len()];
         for (rigid, nodes) in tied.iter().enumerate() {
@@ -238,6 +250,7 @@ impl Problem {
             ties,
             tie_of,
             mass_points,
+            links,
             pairs,
             first_node,
             reference,
@@ -254,6 +267,13 @@ impl Problem {
     pub(crate) fn has_coordinates(&self, rigid: usize) -> bool {
         let free = |plan: &StepPlan| plan.rigid[rigid].iter().any(Option::is_none);
         !self.tied[rigid].is_empty() || self.plans.iter().any(free)
+    }
+
+    /// Returns whether a rigid body has inertia of its own or of nodes tied to it.
+    pub(crate) fn has_mass(&self, rigid: usize) -> bool {
+        let of_bodies = self.first_node[self.model.bodies.len()];
+        let mut tied = self.tied[rigid].iter();
+        self.model.rigid_surfaces[rigid].inertia.is_some() || tied.any(|node| node.0 < of_bodies)
     }
 }
 

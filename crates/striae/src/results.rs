@@ -1,4 +1,4 @@
-//! Results of a state: nodal fields as slices, forces of pairs and ties, reactions.
+//! Results of a state: nodal fields as slices, forces of pairs, ties and springs, reactions.
 
 use nalgebra::Matrix3;
 use striae_contact::unknowns::NodeResult;
@@ -7,6 +7,7 @@ use striae_mesh::{NodeId, Vec3};
 use striae_solve::{
     problem::Problem,
     report::{self, PairReport, RigidReport, TieReport},
+    spring::{SpringReport, springs},
     state::State,
 };
 
@@ -108,6 +109,12 @@ impl<'a> Results<'a> {
     pub fn pair(&self, pair: &str) -> Option<PairReport> {
         let at = self.pair_index(pair)?;
         report::pairs(self.problem, self.state).into_iter().nth(at)
+    }
+
+    /// Tension, elongation and force of springs.
+    pub fn spring(&self, name: &str) -> Option<SpringReport> {
+        let all = springs(self.problem, self.state);
+        all.into_iter().find(|spring| spring.name == name)
     }
 
     /// Forces and moments of a tie.

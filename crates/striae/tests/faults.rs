@@ -145,6 +145,7 @@ fn eleven_faults() -> Model {
     let steps = vec![press(&bodies), hold(&bodies)];
     Model {
         ties: Vec::new(),
+        springs: Vec::new(),
         title: "Eleven faults".into(),
         rigid_surfaces: vec![
             plane("floor", Vec3::zeros(), Vec3::z()),

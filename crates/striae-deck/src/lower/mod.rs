@@ -27,6 +27,7 @@ mod place;
 mod rigid;
 mod sections;
 mod sets;
+mod spring;
 mod step;
 mod surfaces;
 mod texture;
@@ -50,7 +51,7 @@ use step::LoweredStep;
 use striae_model::{
     Draft, DraftPair, DraftStep, Fault, FaultKind as ModelFault, Known, Lowered, Named, fitted,
 };
-use striae_solve::model::{Backend, Model, RigidSurface, Solver, Strategy, Tie};
+use striae_solve::model::{Backend, Model, RigidSurface, Solver, Spring, Strategy, Tie};
 
 /// Parts that the rest of a deck refers to by name.
 struct Scope<'r> {
@@ -130,6 +131,7 @@ struct Parts {
     rigid: Vec<Option<RigidSurface>>,
     pairs: Vec<LoweredPair>,
     ties: Vec<Option<Tie>>,
+    springs: Vec<Option<Spring>>,
     /// Pairs of contact of everything, none if it is not requested; `None` after faults.
     lowered: Option<Lowered>,
     steps: Vec<LoweredStep>,
@@ -156,7 +158,11 @@ fn parts(raw: &raw::Simulation, base: &Path, known: Known, faults: &mut FaultLis
     let names = list(&raw.tie).iter().map(|at| at.value.name.as_ref());
     Names::new("tie", names, faults);
     let ties = contact::ties(list(&raw.tie), &surfaces, faults);
-    let draft = drafted(raw, &bodies, &rigid, &pairs, &ties, known);
+    let names = list(&raw.spring).iter().map(|at| at.value.name.as_ref());
+    Names::new("spring", names, faults);
+    let springs = spring::springs(list(&raw.spring), &surfaces, faults);
+    let joints = (&ties[..], &springs[..]);
+    let draft = drafted(raw, (&bodies, &rigid, &pairs), joints, known);
     let lowered = everything::lowered(raw, &draft, &surfaces, faults);
     match &lowered {
         Some(lowered) => {
@@ -178,6 +184,7 @@ fn parts(raw: &raw::Simulation, base: &Path, known: Known, faults: &mut FaultLis
         rigid,
         pairs,
         ties,
+        springs,
         lowered,
         steps,
     }
@@ -186,10 +193,8 @@ fn parts(raw: &raw::Simulation, base: &Path, known: Known, faults: &mut FaultLis
 /// Parts that are known besides the steps and contact of everything.
 fn drafted<'a>(
     raw: &'a raw::Simulation,
-    bodies: &'a Bodies,
-    rigid: &'a [Option<RigidSurface>],
-    pairs: &'a [LoweredPair],
-    ties: &'a [Option<Tie>],
+    (bodies, rigid, pairs): (&'a Bodies, &'a [Option<RigidSurface>], &'a [LoweredPair]),
+    (ties, springs): (&'a [Option<Tie>], &'a [Option<Spring>]),
     known: Known,
 ) -> Draft<'a> {
     let rigid = list(&raw.rigid).iter().zip(rigid);
@@ -208,11 +213,17 @@ fn drafted<'a>(
         name: name(&raw.value.name),
         part: part.as_ref(),
     });
+    let springs = list(&raw.spring).iter().zip(springs);
+    let springs = springs.map(|(raw, part)| Named {
+        name: name(&raw.value.name),
+        part: part.as_ref(),
+    });
     Draft {
         bodies: bodies.drafts(),
         rigid_surfaces: rigid.collect(),
         pairs: pairs.collect(),
         ties: ties.collect(),
+        springs: springs.collect(),
         steps: Vec::new(),
         known,
     }
@@ -225,14 +236,8 @@ impl Parts {
             Some(_) => known,
             None => Known::InPart,
         };
-        let mut draft = drafted(
-            raw,
-            &self.bodies,
-            &self.rigid,
-            &self.pairs,
-            &self.ties,
-            known,
-        );
+        let parts = (&self.bodies, &self.rigid[..], &self.pairs[..]);
+        let mut draft = drafted(raw, parts, (&self.ties, &self.springs), known);
         if let Some(lowered) = &self.lowered {
             draft.extend(&lowered.pairs);
         }
@@ -259,6 +264,7 @@ impl Parts {
                 .chain(self.lowered?.pairs.into_iter().map(Some))
                 .collect::<Option<_>>()?,
             ties: whole(self.ties)?,
+            springs: whole(self.springs)?,
             steps: self.steps.into_iter().map(|lowered| lowered.step).collect(),
             solver: solver(raw.solver.as_ref().map(|solver| &solver.value)),
         })

@@ -12,13 +12,14 @@ mod material;
 mod mesh;
 mod sets;
 mod settings;
+mod spring;
 mod step;
 mod texture;
 
 use super::{declare::table, read::At};
 pub(crate) use {
     actuation::*, body::*, contact::*, everything::*, fibres::*, material::*, mesh::*, sets::*,
-    settings::*, step::*, texture::*,
+    settings::*, spring::*, step::*, texture::*,
 };
 
 use super::value::{NamedNumbers, OneOrMore, Text};
@@ -51,6 +52,8 @@ table! {
         optional contact: Contact,
         /// Surfaces of bodies that are glued together.
         optional tie: Vec<At<BodyTie>>,
+        /// Springs and dashpots.
+        optional spring: Vec<At<Spring>>,
         /// Curves along which conditions change.
         optional curve: Vec<At<NamedCurve>>,
         /// Parts of the loading history, in the order in which they are run.

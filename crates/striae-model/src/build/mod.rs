@@ -8,6 +8,7 @@ mod lookup;
 mod paint;
 mod pair;
 mod parts;
+mod spring;
 mod step;
 mod tie;
 
@@ -18,12 +19,18 @@ pub use parts::{
     BodyBuilder, RigidBuilder, SectionBuilder, body, composite, plane, rigid_solid, rigid_surface,
     section, tied,
 };
+pub use spring::{
+    SpringBuilder, SpringEndBuilder, nodes_of, point_of, reference_of, spring, spring_along,
+    spring_to_point,
+};
 pub use step::{
     Component, Components, StepBuilder, equal_increments, shared_force, step, usual_curve,
 };
 pub use tie::{TieBuilder, tie};
 
-use striae_solve::model::{Backend, Body, Model, Pair, RigidSurface, Solver, Strategy, Tie};
+use striae_solve::model::{
+    Backend, Body, Model, Pair, RigidSurface, Solver, Spring, Strategy, Tie,
+};
 
 use crate::{
     check::{Draft, DraftPair, DraftStep, Known, Named, Validate},
@@ -46,6 +53,7 @@ pub struct ModelBuilder {
     pairs: Vec<PairBuilder>,
     everything: Option<Everything>,
     ties: Vec<TieBuilder>,
+    springs: Vec<SpringBuilder>,
     steps: Vec<StepBuilder>,
     solver: Solver,
 }
@@ -60,6 +68,7 @@ pub fn model(title: impl Into<String>) -> ModelBuilder {
         pairs: Vec::new(),
         everything: None,
         ties: Vec::new(),
+        springs: Vec::new(),
         steps: Vec::new(),
         solver: solver(),
     }
@@ -110,6 +119,12 @@ impl ModelBuilder {
         self
     }
 
+    /// Adds springs.
+    pub fn spring(mut self, spring: SpringBuilder) -> Self {
+        self.springs.push(spring);
+        self
+    }
+
     /// Adds a step after those before.
     pub fn step(mut self, step: StepBuilder) -> Self {
         self.steps.push(step);
@@ -140,10 +155,13 @@ impl ModelBuilder {
         let ties: Vec<Option<Tie>> = (self.ties.iter().enumerate())
             .map(|(index, tie)| tie.resolved(index, &names, &mut faults))
             .collect();
+        let springs: Vec<Option<Spring>> = (self.springs.iter().enumerate())
+            .map(|(index, spring)| spring.resolved(index, (&names, &rigid), &mut faults))
+            .collect();
         let lowered = match &self.everything {
             None => Some(Lowered::default()),
             Some(everything) => {
-                let draft = self.draft(&rigid, &pairs, &ties, &[]);
+                let draft = self.draft((&rigid, &pairs), (&ties, &springs), &[]);
                 everything.lowered(&draft, &mut faults)
             }
         };
@@ -160,7 +178,7 @@ impl ModelBuilder {
             .map(|(index, step)| step.resolved(index, &names, &mut prescribed, &mut faults))
             .collect();
         if !faults.is_empty() {
-            let mut draft = self.draft(&rigid, &pairs, &ties, &steps);
+            let mut draft = self.draft((&rigid, &pairs), (&ties, &springs), &steps);
             match &lowered {
                 Some(lowered) => draft.extend(&lowered.pairs),
                 None => draft.known = Known::InPart,
@@ -177,6 +195,7 @@ impl ModelBuilder {
                 .chain(lowered.into_iter().flat_map(|of| of.pairs))
                 .collect(),
             ties: ties.into_iter().flatten().collect(),
+            springs: springs.into_iter().flatten().collect(),
             steps: steps.into_iter().map(|resolved| resolved.step).collect(),
             solver: self.solver,
         };
@@ -186,9 +205,8 @@ impl ModelBuilder {
     /// Draft of the model if some names are unknown.
     fn draft<'a>(
         &'a self,
-        rigid: &'a [Option<RigidSurface>],
-        pairs: &'a [Option<Pair>],
-        ties: &'a [Option<Tie>],
+        (rigid, pairs): (&'a [Option<RigidSurface>], &'a [Option<Pair>]),
+        (ties, springs): (&'a [Option<Tie>], &'a [Option<Spring>]),
         steps: &'a [Resolved],
     ) -> Draft<'a> {
         let rigid = self.rigid.iter().zip(rigid).map(|(of, part)| Named {
@@ -204,6 +222,10 @@ impl ModelBuilder {
             name: of.name(),
             part: tie.as_ref(),
         });
+        let springs = self.springs.iter().zip(springs).map(|(of, part)| Named {
+            name: of.name(),
+            part: part.as_ref(),
+        });
         let steps = steps.iter().map(|resolved| DraftStep {
             step: &resolved.step,
             known: resolved.known,
@@ -214,6 +236,7 @@ impl ModelBuilder {
             rigid_surfaces: rigid.collect(),
             pairs: pairs.collect(),
             ties: ties.collect(),
+            springs: springs.collect(),
             steps: steps.collect(),
             known: Known::Whole,
         }

@@ -1,7 +1,7 @@
 //! Ids, nodes and faces that are there.
 
 use striae_mesh::{Face, Mesh, NodeId};
-use striae_solve::model::{BodyId, ContactSurface, Model, Mover, RigidId, RigidShape};
+use striae_solve::model::{BodyId, ContactSurface, Model, Mover, RigidId, RigidShape, SpringEnd};
 
 use super::List;
 use crate::{
@@ -35,6 +35,15 @@ pub(super) fn faults(model: &Model) -> Vec<Fault> {
         let path = Path::part("ties", index);
         check.side(&tie.a, path.clone().field("a"));
         check.side(&tie.b, path.field("b"));
+    }
+    for (index, spring) in model.springs.iter().enumerate() {
+        for (end, field) in spring.ends().zip(["a", "b"]) {
+            let path = Path::part("springs", index).field(field);
+            match end {
+                SpringEnd::Nodes { body, nodes } => check.nodes(*body, nodes, path),
+                SpringEnd::Rigid { rigid, .. } => check.rigid(*rigid, &path),
+            }
+        }
     }
     for index in 0..model.steps.len() {
         check.step(index);

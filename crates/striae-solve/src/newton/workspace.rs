@@ -20,6 +20,7 @@ use crate::{
     },
     layout::{Extent, Layout},
     model::Backend,
+    node::GlobalNode,
     outcome::CutBack,
     problem::Problem,
     rigid::Pose,
@@ -112,6 +113,25 @@ impl Workspace {
                 if nodes.iter().any(|&node| problem.tie_of[node].is_some()) {
                     tied.extend([owners]);
                 }
+            }
+        }
+        for link in &problem.links {
+            let ends: Vec<GlobalNode> = std::iter::once(link.a).chain(link.second()).collect();
+            let nodes = problem.ties.behind(&ends);
+            let (rigid, free): (Vec<GlobalNode>, Vec<GlobalNode>) = nodes
+                .iter()
+                .partition(|&&node| problem.tie_of[node].is_some());
+            cliques.push(
+                free.iter()
+                    .map(|&node| layout.supervariable(node))
+                    .collect(),
+            );
+            if !rigid.is_empty() {
+                let owners = nodes.iter().map(|&node| layout.owner(problem, node));
+                let mut owners: Vec<Supervariable> = owners.collect();
+                owners.sort_unstable();
+                owners.dedup();
+                tied.extend([owners]);
             }
         }
         cliques.extend((0..layout.offsets().len() - 1).map(|at| vec![Supervariable(at)]));

@@ -33,6 +33,8 @@ pub(super) fn local(model: &Model, numbers: &Numbers) -> Model {
             .collect(),
         pairs: model.pairs.iter().map(pair).collect(),
         ties: model.ties.iter().map(tie).collect(),
+        // Ranks have none, see `Problem::shared`.
+        springs: Vec::new(),
         steps: steps.map(|step| local_step(step, numbers)).collect(),
         solver: model.solver.clone(),
     }

@@ -172,6 +172,7 @@ pub fn model(case: &Case, depth: f64) -> Model {
     });
     Model {
         ties: Vec::new(),
+        springs: Vec::new(),
         title: case.name.clone(),
         steps: steps.collect(),
         bodies,

@@ -231,6 +231,7 @@ pub fn pieces(meshes: &[Mesh]) -> Mesh {
 pub fn model(bodies: Vec<Body>) -> Model {
     Model {
         ties: Vec::new(),
+        springs: Vec::new(),
         title: String::new(),
         bodies,
         rigid_surfaces: Vec::new(),
