@@ -17,6 +17,8 @@ pub enum Part {
     Tie,
     /// Springs.
     Spring,
+    /// A cavity.
+    Cavity,
     /// A step.
     Step,
 }

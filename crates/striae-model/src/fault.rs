@@ -290,6 +290,14 @@ pub enum FaultKind {
         /// The earlier tie.
         other: String,
     },
+    /// A cavity that encloses nothing, or a content that it cannot have.
+    #[error("cavity `{cavity}`: {cause}")]
+    Cavity {
+        /// The cavity.
+        cavity: String,
+        /// Reason, and what is needed.
+        cause: String,
+    },
     /// A spring that has no force, no direction or too many ends.
     #[error("spring `{spring}`: {cause}")]
     Spring {

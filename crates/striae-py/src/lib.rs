@@ -6,6 +6,7 @@
 //! owns.
 
 mod array;
+mod cavity;
 mod cells;
 mod declared;
 mod everything;
@@ -24,6 +25,7 @@ mod raised;
 mod results;
 mod rigid;
 mod run;
+mod spring;
 mod start;
 mod step;
 mod texture;
@@ -36,6 +38,7 @@ use pyo3::prelude::*;
 mod _striae {
     #[pymodule_export]
     use super::{
+        cavity::Cavity,
         declared::declared_laws,
         everything::Everything,
         fit::{fit_friction, measurements_of},
@@ -51,6 +54,7 @@ mod _striae {
         run::files::report,
         run::returned::returned,
         run::{Run, deck_of, resume, run},
+        spring::Spring,
         step::{Step, check_function, moves},
         texture::Texture,
         tie::Tie,

@@ -103,6 +103,7 @@ fn model(count: usize) -> Model {
         }],
         ties: Vec::new(),
         springs: Vec::new(),
+        cavities: Vec::new(),
         steps: Vec::new(),
         solver: Solver {
             backend: Backend::Condensed,

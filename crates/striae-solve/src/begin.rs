@@ -53,7 +53,7 @@ pub fn begin(
         let assembled = assembled_at_start(&context, state, workspace)?;
         let mut forces = assembled.forces;
         let on = (&mut forces.tensions[..], &mut forces.internal[..]);
-        add_dashpots(problem, &state.positions, &velocities, on);
+        add_dashpots(&problem.links, &state.positions, &velocities, on);
         let holding;
         (accelerations, holding) =
             workspace.accelerations(&context, state, &imposed, &velocities, &forces)?;

@@ -10,7 +10,7 @@
 //!
 //! Longer than other files, as rows and the words for their null space belong together.
 
-use nalgebra::{DMatrix, SymmetricEigen};
+use nalgebra::{DMatrix, Matrix3, SymmetricEigen};
 use striae_contact::{
     initial::signed_gap,
     interference::{Stage, facing},
@@ -26,6 +26,7 @@ use crate::{
     node::GlobalNode,
     outcome::{FreeMotion, FreeMover},
     problem::Problem,
+    spring::Link,
     state::State,
 };
 
@@ -313,26 +314,38 @@ impl Rows {
         }
     }
 
-    /// Rows of springs, along which they resist the relative motion of their ends.
+    /// Rows of springs: along them, and across those in tension, they resist the relative motion of
+    /// their ends.
     fn springs(&mut self, problem: &Problem, at: Positions) {
-        let bodies = problem.model.bodies.len();
         for link in problem.links.iter().filter(|link| link.stiffness > 0.0) {
             let Some(length) = link.length(at.nodes) else {
                 continue;
             };
-            let of_node = |node: GlobalNode| match problem.tie_of[node] {
-                Some(rigid) => self.of[bodies + rigid],
-                None => self.of[problem.body_node(node).0],
-            };
-            let ends = [(Some(link.a), 1.0), (link.second(), -1.0)];
-            let ends = ends.into_iter().filter_map(|(node, sign)| {
-                let component = of_node(node?)?;
-                let along = length.gradient * sign;
-                Some((component, self.entries(component, &at.nodes[node?], &along)))
-            });
-            let entries: Vec<_> = ends.collect();
-            self.add(&entries);
+            self.spring(problem, at, (link, &length.gradient));
+            let is_tight = link.tension(length.value, 0.0) > 0.0;
+            if is_tight && length.curvature != Matrix3::zeros() {
+                for axis in 0..3 {
+                    let across = length.curvature.column(axis) * length.value;
+                    self.spring(problem, at, (link, &across.into()));
+                }
+            }
         }
+    }
+
+    fn spring(&mut self, problem: &Problem, at: Positions, (link, along): (&Link, &Vec3)) {
+        let bodies = problem.model.bodies.len();
+        let of_node = |node: GlobalNode| match problem.tie_of[node] {
+            Some(rigid) => self.of[bodies + rigid],
+            None => self.of[problem.body_node(node).0],
+        };
+        let ends = [(Some(link.a), 1.0), (link.second(), -1.0)];
+        let ends = ends.into_iter().filter_map(|(node, sign)| {
+            let component = of_node(node?)?;
+            let row = self.entries(component, &at.nodes[node?], &(along * sign));
+            Some((component, row))
+        });
+        let entries: Vec<_> = ends.collect();
+        self.add(&entries);
     }
 
     /// Rows of the closed nodes of a pair.

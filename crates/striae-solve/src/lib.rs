@@ -6,6 +6,7 @@ pub mod audit;
 pub mod axes;
 mod begin;
 mod body_mass;
+pub mod cavity;
 mod composition;
 mod constitution;
 mod contact_mass;

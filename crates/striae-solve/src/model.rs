@@ -31,6 +31,8 @@ pub struct Model {
     pub ties: Vec<Tie>,
     /// Springs and dashpots.
     pub springs: Vec<Spring>,
+    /// Cavities with a pressure inside.
+    pub cavities: Vec<Cavity>,
     /// Steps in the order in which they are run.
     pub steps: Vec<Step>,
     /// Newton's method and the linear solver.
@@ -284,6 +286,49 @@ pub struct Spring {
     pub rest: SpringRest,
 }
 
+/// A cavity, see [`crate::cavity`].
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Cavity {
+    /// Unique name.
+    pub name: String,
+    /// Its surface: faces of bodies, whose outward normals look into it.
+    pub parts: Vec<(BodyId, Vec<Face>)>,
+}
+
+/// Position of a cavity in [`Model::cavities`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+pub struct CavityId(pub usize);
+
+/// Content of a cavity in a step, until a later one states another.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CavityFilling {
+    /// The cavity.
+    pub cavity: CavityId,
+    /// Its content.
+    pub content: CavityContent,
+    /// Curve towards a target.
+    pub curve: Curve,
+}
+
+/// Kinds of contents of a cavity with their targets.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub enum CavityContent {
+    /// Pressure over that of the surroundings.
+    Pressure(f64),
+    /// Volume.
+    Volume(f64),
+    /// Volume over that at rest.
+    VolumeRatio(f64),
+    /// Gas that is sealed in at the start of the step, at the pressure and volume that the cavity
+    /// has there.
+    Gas {
+        /// Absolute pressure of the surroundings.
+        ambient: f64,
+        /// Polytropic exponent; 1 if the temperature stays.
+        exponent: f64,
+    },
+}
+
 /// End of springs that moves with a body.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum SpringEnd {
@@ -433,6 +478,8 @@ pub struct Step {
     pub forces: Vec<NodalForce>,
     /// Actuation of bodies and their sections.
     pub actuations: Vec<Actuation>,
+    /// Contents of cavities.
+    pub fillings: Vec<CavityFilling>,
     /// Displacements of rigid surfaces.
     pub rigid_motions: Vec<RigidMotion>,
     /// Changes of friction at the start of the step.

@@ -59,6 +59,14 @@ pub enum CutBack {
         /// Name of the spring.
         spring: String,
     },
+    /// The surface of a cavity has collapsed, or its gas has no volume.
+    #[error(
+        "cavity `{cavity}`: a facet of its surface has collapsed, or its gas would have a pressure below zero; change its content in smaller increments"
+    )]
+    Cavity {
+        /// Name of the cavity.
+        cavity: String,
+    },
     /// A convected texture has no direction left at a node.
     #[error(
         "pair `{pair}`: the texture at {node} of body `{body}`, or opposite to it, has no tangential part any more"

@@ -18,7 +18,7 @@ use std::sync::Arc;
 use striae_contact::{pair::Geometry, side::Side};
 
 use crate::{
-    model::{Model, Spring},
+    model::{Cavity, Model, Spring},
     problem::{Frame, PairGeometry, Problem, ProblemError},
     share::{Division, Share},
     team::Team,
@@ -33,7 +33,7 @@ impl Problem {
     /// with the same model and division.
     ///
     /// # Errors
-    /// As [`Problem::new`], the same on all ranks, and where a model has springs.
+    /// As [`Problem::new`], the same on all ranks, and where a model has springs or cavities.
     ///
     /// # Panics
     /// When the model is divided among more or fewer ranks than the team has.
@@ -49,6 +49,10 @@ impl Problem {
         if let Some(Spring { name, .. }) = model.springs.first() {
             let spring = name.clone();
             return Err(ProblemError::SharedSpring { spring });
+        }
+        if let Some(Cavity { name, .. }) = model.cavities.first() {
+            let cavity = name.clone();
+            return Err(ProblemError::SharedCavity { cavity });
         }
         let whole = Frame::new(model)?;
         let frame = restricted(whole, division, team);

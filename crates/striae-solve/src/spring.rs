@@ -26,8 +26,6 @@ use striae_mesh::Vec3;
 use crate::{
     model::{Model, Spring, SpringEnd, SpringLine, SpringRest},
     node::GlobalNode,
-    problem::Problem,
-    state::State,
 };
 
 /// A single spring with a dashpot beside it.
@@ -196,12 +194,12 @@ fn link(spring: usize, of: &Spring, (a, line): (GlobalNode, Line), reference: &[
 /// Adds the force of each dashpot at the given velocities to tensions and forces that are those
 /// without dashpots.
 pub(crate) fn add_dashpots(
-    problem: &Problem,
+    links: &[Link],
     positions: &[Vec3],
     velocities: &[Vec3],
     (tensions, internal): (&mut [f64], &mut [Vec3]),
 ) {
-    for (link, tension) in problem.links.iter().zip(tensions) {
+    for (link, tension) in links.iter().zip(tensions) {
         let Some(length) = link.length(positions) else {
             continue;
         };
@@ -212,48 +210,4 @@ pub(crate) fn add_dashpots(
             internal[second] -= length.gradient * viscous;
         }
     }
-}
-
-/// Result of springs.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SpringReport {
-    /// Their name.
-    pub name: String,
-    /// Sum of the tensions.
-    pub tension: f64,
-    /// Mean of the elongations since the start.
-    pub elongation: f64,
-    /// Force on the first end.
-    pub force: Vec3,
-}
-
-/// Reports of all springs.
-pub fn springs(problem: &Problem, state: &State) -> Vec<SpringReport> {
-    let report = |(spring, of): (usize, &Spring)| {
-        let links = problem.links.iter().zip(&state.forces.tensions);
-        let own = links.filter(|(link, _)| link.spring == spring);
-        let (mut tension, mut elongation, mut force) = (0.0, 0.0, Vec3::zeros());
-        let mut count = 0.0;
-        for (link, of_link) in own {
-            count += 1.0;
-            tension += of_link;
-            if let Some(length) = link.length(&state.positions) {
-                elongation += length.value - link.length;
-                force -= length.gradient * *of_link;
-            }
-        }
-        SpringReport {
-            name: of.name.clone(),
-            tension,
-            elongation: elongation / f64::max(count, 1.0),
-            force,
-        }
-    };
-    problem
-        .model
-        .springs
-        .iter()
-        .enumerate()
-        .map(report)
-        .collect()
 }

@@ -33,6 +33,8 @@ pub struct State {
     pub histories: Vec<Vec<f64>>,
     /// Actuation of the bodies.
     pub actuations: Actuations,
+    /// Pressure in every cavity, over that of the surroundings.
+    pub pressures: Vec<f64>,
     /// State of every pair.
     pub pairs: Vec<PairState>,
     /// Nodal forces.
@@ -169,6 +171,7 @@ impl State {
                 .map(|body| problem.rest(body))
                 .collect(),
             actuations: Actuations::default(),
+            pressures: vec![0.0; problem.cavities.len()],
             pairs: problem
                 .pairs
                 .iter()

@@ -6,8 +6,7 @@ use striae_element::nodal_cauchy_stress;
 use striae_mesh::{NodeId, Vec3};
 use striae_solve::{
     problem::Problem,
-    report::{self, PairReport, RigidReport, TieReport},
-    spring::{SpringReport, springs},
+    report::{self, CavityReport, PairReport, RigidReport, SpringReport, TieReport},
     state::State,
 };
 
@@ -113,8 +112,14 @@ impl<'a> Results<'a> {
 
     /// Tension, elongation and force of springs.
     pub fn spring(&self, name: &str) -> Option<SpringReport> {
-        let all = springs(self.problem, self.state);
+        let all = report::springs(self.problem, self.state);
         all.into_iter().find(|spring| spring.name == name)
+    }
+
+    /// Pressure and volume of a cavity.
+    pub fn cavity(&self, name: &str) -> Option<CavityReport> {
+        let all = report::cavities(self.problem, self.state);
+        all.into_iter().find(|cavity| cavity.name == name)
     }
 
     /// Forces and moments of a tie.

@@ -6,6 +6,7 @@ mod admissible;
 mod axis;
 mod body;
 pub(crate) mod cards;
+mod cavity;
 mod condition;
 mod contact;
 mod curve;
@@ -51,13 +52,14 @@ use step::LoweredStep;
 use striae_model::{
     Draft, DraftPair, DraftStep, Fault, FaultKind as ModelFault, Known, Lowered, Named, fitted,
 };
-use striae_solve::model::{Backend, Model, RigidSurface, Solver, Spring, Strategy, Tie};
+use striae_solve::model::{Backend, Cavity, Model, RigidSurface, Solver, Spring, Strategy, Tie};
 
 /// Parts that the rest of a deck refers to by name.
 struct Scope<'r> {
     bodies: &'r Bodies,
     rigid: &'r Names,
     pair_names: &'r Names,
+    cavity_names: &'r Names,
     curves: &'r curve::Curves,
     parameters: &'r function::Parameters,
 }
@@ -132,6 +134,7 @@ struct Parts {
     pairs: Vec<LoweredPair>,
     ties: Vec<Option<Tie>>,
     springs: Vec<Option<Spring>>,
+    cavities: Vec<Option<Cavity>>,
     /// Pairs of contact of everything, none if it is not requested; `None` after faults.
     lowered: Option<Lowered>,
     steps: Vec<LoweredStep>,
@@ -158,9 +161,8 @@ fn parts(raw: &raw::Simulation, base: &Path, known: Known, faults: &mut FaultLis
     let names = list(&raw.tie).iter().map(|at| at.value.name.as_ref());
     Names::new("tie", names, faults);
     let ties = contact::ties(list(&raw.tie), &surfaces, faults);
-    let names = list(&raw.spring).iter().map(|at| at.value.name.as_ref());
-    Names::new("spring", names, faults);
     let springs = spring::springs(list(&raw.spring), &surfaces, faults);
+    let (cavity_names, cavities) = cavity::cavities(list(&raw.cavity), &bodies, faults);
     let joints = (&ties[..], &springs[..]);
     let draft = drafted(raw, (&bodies, &rigid, &pairs), joints, known);
     let lowered = everything::lowered(raw, &draft, &surfaces, faults);
@@ -175,6 +177,7 @@ fn parts(raw: &raw::Simulation, base: &Path, known: Known, faults: &mut FaultLis
         bodies: &bodies,
         rigid: &rigid_names,
         pair_names: &pair_names,
+        cavity_names: &cavity_names,
         curves: &curves,
         parameters: &parameters,
     };
@@ -185,6 +188,7 @@ fn parts(raw: &raw::Simulation, base: &Path, known: Known, faults: &mut FaultLis
         pairs,
         ties,
         springs,
+        cavities,
         lowered,
         steps,
     }
@@ -265,6 +269,7 @@ impl Parts {
                 .collect::<Option<_>>()?,
             ties: whole(self.ties)?,
             springs: whole(self.springs)?,
+            cavities: whole(self.cavities)?,
             steps: self.steps.into_iter().map(|lowered| lowered.step).collect(),
             solver: solver(raw.solver.as_ref().map(|solver| &solver.value)),
         })

@@ -55,6 +55,16 @@ pub(super) fn span(path: &Path, raw: &raw::Simulation, places: &Places) -> Span 
             let spring = list(&raw.spring).get(*index);
             spring.map(|spring| of_spring(spring, rest))
         }
+        [Field("cavities"), Index(index), ..] => {
+            let cavity = list(&raw.cavity).get(*index);
+            cavity.map(|at| {
+                at.value
+                    .name
+                    .as_ref()
+                    .map_or(&at.span, |name| &name.span)
+                    .clone()
+            })
+        }
         [Field("rigid_surfaces"), Index(index), rest @ ..] => {
             let rigid = list(&raw.rigid).get(*index);
             rigid.map(|rigid| of_rigid(rigid, rest))

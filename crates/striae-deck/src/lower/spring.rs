@@ -1,7 +1,7 @@
 //! Springs and dashpots.
 
 use super::{generator::nonzero, surfaces::Surfaces};
-use crate::{faults::FaultList, raw, read::At, value::vector};
+use crate::{faults::FaultList, names::Names, raw, read::At, value::vector};
 use striae_model::FaultKind as ModelFault;
 use striae_solve::model::{RigidId, Spring, SpringEnd, SpringLine, SpringRest};
 
@@ -11,6 +11,8 @@ pub(super) fn springs(
     surfaces: &Surfaces<'_>,
     faults: &mut FaultList<'_>,
 ) -> Vec<Option<Spring>> {
+    let names = raw.iter().map(|at| at.value.name.as_ref());
+    Names::new("spring", names, faults);
     let lower = |spring: &At<raw::Spring>| lower(spring, surfaces, faults);
     raw.iter().map(lower).collect()
 }

@@ -5,6 +5,7 @@
 
 mod actuation;
 mod body;
+mod cavity;
 mod contact;
 mod everything;
 mod fibres;
@@ -18,8 +19,8 @@ mod texture;
 
 use super::{declare::table, read::At};
 pub(crate) use {
-    actuation::*, body::*, contact::*, everything::*, fibres::*, material::*, mesh::*, sets::*,
-    settings::*, spring::*, step::*, texture::*,
+    actuation::*, body::*, cavity::*, contact::*, everything::*, fibres::*, material::*, mesh::*,
+    sets::*, settings::*, spring::*, step::*, texture::*,
 };
 
 use super::value::{NamedNumbers, OneOrMore, Text};
@@ -54,6 +55,8 @@ table! {
         optional tie: Vec<At<BodyTie>>,
         /// Springs and dashpots.
         optional spring: Vec<At<Spring>>,
+        /// Cavities with a pressure inside.
+        optional cavity: Vec<At<Cavity>>,
         /// Curves along which conditions change.
         optional curve: Vec<At<NamedCurve>>,
         /// Parts of the loading history, in the order in which they are run.

@@ -10,6 +10,7 @@
 //! that gives the same bits when it is read, see `value`.
 
 mod actuation;
+mod cavity;
 pub(crate) mod law;
 mod mesh;
 mod output;
@@ -60,6 +61,8 @@ pub fn write(model: &Model, output: &Output) -> Result<String, Unstated> {
     let ties: String = (0..model.ties.len()).map(|at| writer.tie(at)).collect();
     let springs = 0..model.springs.len();
     let springs: String = springs.map(|at| writer.spring(at)).collect();
+    let cavities = 0..model.cavities.len();
+    let cavities: String = cavities.map(|at| writer.cavity(at)).collect();
     let rigid = 0..model.rigid_surfaces.len();
     let rigid: String = rigid.map(|at| writer.rigid(at)).collect();
     let bodies: String = (0..model.bodies.len()).map(|at| writer.body(at)).collect();
@@ -69,7 +72,7 @@ pub fn write(model: &Model, output: &Output) -> Result<String, Unstated> {
     }
     let title = format!("title = {}\n", text(&model.title));
     let (output, solver) = (output::output(output), solver(&model.solver));
-    let joints = pairs + &ties + &springs;
+    let joints = pairs + &ties + &springs + &cavities;
     Ok(title + &output + &solver + &bodies + &rigid + &joints + &writer.curves() + &steps)
 }
 

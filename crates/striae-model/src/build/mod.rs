@@ -3,6 +3,7 @@
 //! Bodies, sets, rigid surfaces and pairs are referred to by name; [`ModelBuilder::build`] looks
 //! them up, validates the model and closes gaps as its pairs request.
 
+mod cavity;
 mod extend;
 mod lookup;
 mod paint;
@@ -12,6 +13,7 @@ mod spring;
 mod step;
 mod tie;
 
+pub use cavity::{CavityBuilder, cavity};
 pub use extend::extended;
 pub use paint::{axial, circumferential, nodal, painted, radial, turned, uniform};
 pub use pair::{PairBuilder, SideBuilder, itself, pair, rigid, surface};
@@ -29,7 +31,7 @@ pub use step::{
 pub use tie::{TieBuilder, tie};
 
 use striae_solve::model::{
-    Backend, Body, Model, Pair, RigidSurface, Solver, Spring, Strategy, Tie,
+    Backend, Body, Cavity, Model, Pair, RigidSurface, Solver, Spring, Strategy, Tie,
 };
 
 use crate::{
@@ -54,6 +56,7 @@ pub struct ModelBuilder {
     everything: Option<Everything>,
     ties: Vec<TieBuilder>,
     springs: Vec<SpringBuilder>,
+    cavities: Vec<CavityBuilder>,
     steps: Vec<StepBuilder>,
     solver: Solver,
 }
@@ -69,6 +72,7 @@ pub fn model(title: impl Into<String>) -> ModelBuilder {
         everything: None,
         ties: Vec::new(),
         springs: Vec::new(),
+        cavities: Vec::new(),
         steps: Vec::new(),
         solver: solver(),
     }
@@ -125,6 +129,12 @@ impl ModelBuilder {
         self
     }
 
+    /// Adds a cavity.
+    pub fn cavity(mut self, cavity: CavityBuilder) -> Self {
+        self.cavities.push(cavity);
+        self
+    }
+
     /// Adds a step after those before.
     pub fn step(mut self, step: StepBuilder) -> Self {
         self.steps.push(step);
@@ -158,6 +168,9 @@ impl ModelBuilder {
         let springs: Vec<Option<Spring>> = (self.springs.iter().enumerate())
             .map(|(index, spring)| spring.resolved(index, (&names, &rigid), &mut faults))
             .collect();
+        let cavities: Vec<Option<Cavity>> = (self.cavities.iter().enumerate())
+            .map(|(index, cavity)| cavity.resolved(index, &names, &mut faults))
+            .collect();
         let lowered = match &self.everything {
             None => Some(Lowered::default()),
             Some(everything) => {
@@ -170,6 +183,7 @@ impl ModelBuilder {
         let all = named.iter().copied();
         let all = all.chain(of_lowered.map(|pair| pair.name.as_str()));
         let mut names = Names::new(&self.bodies, rigid_names, all.collect());
+        names.cavities = self.cavities.iter().map(CavityBuilder::name).collect();
         if lowered.is_none() {
             names = names.with_other_pairs();
         }
@@ -196,6 +210,7 @@ impl ModelBuilder {
                 .collect(),
             ties: ties.into_iter().flatten().collect(),
             springs: springs.into_iter().flatten().collect(),
+            cavities: cavities.into_iter().flatten().collect(),
             steps: steps.into_iter().map(|resolved| resolved.step).collect(),
             solver: self.solver,
         };

@@ -5,6 +5,7 @@
 //! judged as a whole is left out. A whole model is checked by [`Validate::faults`].
 
 mod actuations;
+mod cavities;
 mod conditions;
 mod extents;
 mod facets;
@@ -139,6 +140,7 @@ impl Validate for Model {
         if faults.is_empty() {
             faults = Draft::of(self).faults();
             faults.extend(numbers::faults(self));
+            faults.extend(cavities::faults(self));
         }
         faults
     }

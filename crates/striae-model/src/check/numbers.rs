@@ -254,6 +254,7 @@ fn of_step(step: &Step, path: &Path, faults: &mut List) {
     curves("forces", &mut step.forces.iter().map(|of| &of.curve));
     let mut actuations = step.actuations.iter().map(|of| &of.curve);
     curves("actuations", &mut actuations);
+    curves("fillings", &mut step.fillings.iter().map(|of| &of.curve));
     let mut motions = step.rigid_motions.iter().map(|of| &of.curve);
     curves("rigid_motions", &mut motions);
     if let Some(gravity) = &step.gravity {

@@ -107,6 +107,7 @@ fn of_body(draft: &Draft<'_>, step: &Step, body: BodyId, faults: &mut List) {
         let varies = load.kind.numbers().is_none();
         load.body == body && (turns || varies || load.extent != LoadExtent::Whole)
     });
+    let uncertain = uncertain || !step.fillings.is_empty();
     let uncertain = uncertain || step.forces.iter().any(|of| of.body == body && varies(of));
     let Some(mesh) = of
         .mesh

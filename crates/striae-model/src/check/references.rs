@@ -45,6 +45,12 @@ pub(super) fn faults(model: &Model) -> Vec<Fault> {
             }
         }
     }
+    for (index, cavity) in model.cavities.iter().enumerate() {
+        for (part, (body, faces)) in cavity.parts.iter().enumerate() {
+            let path = Path::part("cavities", index).field("parts").index(part);
+            check.faces(*body, faces, path);
+        }
+    }
     for index in 0..model.steps.len() {
         check.step(index);
     }
@@ -96,6 +102,11 @@ impl Check<'_> {
                 let count = model.bodies[actuation.body.0].sections.len() + 1;
                 self.within("section", actuation.section, count, &path);
             }
+        }
+        for (index, filling) in step.fillings.iter().enumerate() {
+            let count = model.cavities.len();
+            let path = at("fillings", index);
+            self.within("cavity", [filling.cavity.0], count, &path);
         }
         for (index, velocity) in step.velocities.iter().enumerate() {
             match velocity.body {

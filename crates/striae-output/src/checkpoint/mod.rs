@@ -45,7 +45,7 @@ pub const FILE: &str = "checkpoint.bin";
 pub const END: &str = "end.bin";
 
 /// Number of the format, to be raised when the content changes.
-pub const FORMAT: u64 = 21;
+pub const FORMAT: u64 = 22;
 
 /// A run in progress.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -109,7 +109,7 @@ pub fn fingerprint(model: &Model, output: &Output) -> u64 {
     of(&(model, output))
 }
 
-/// Fingerprints of the bodies, rigid surfaces, pairs, ties and springs of a model, by what they are called.
+/// Fingerprints of the bodies, rigid surfaces, pairs, ties, springs and cavities of a model, by what they are called.
 pub fn part_fingerprints(model: &Model) -> Vec<(String, u64)> {
     let bodies = model.bodies.iter();
     let bodies = bodies.map(|body| (format!("body `{}`", body.name), of(body)));
@@ -121,8 +121,10 @@ pub fn part_fingerprints(model: &Model) -> Vec<(String, u64)> {
     let ties = ties.map(|tie| (format!("tie `{}`", tie.name), of(tie)));
     let springs = model.springs.iter();
     let springs = springs.map(|spring| (format!("spring `{}`", spring.name), of(spring)));
-    let parts = bodies.chain(rigid).chain(pairs);
-    parts.chain(ties).chain(springs).collect()
+    let cavities = model.cavities.iter();
+    let cavities = cavities.map(|cavity| (format!("cavity `{}`", cavity.name), of(cavity)));
+    let parts = bodies.chain(rigid).chain(pairs).chain(ties);
+    parts.chain(springs).chain(cavities).collect()
 }
 
 /// Fingerprints of the steps of a model, by what they are called.
@@ -238,7 +240,7 @@ impl Source {
 }
 
 impl Source {
-    /// Checks that a model has the bodies, rigid surfaces, pairs, ties and springs of the run.
+    /// Checks that a model has the bodies, rigid surfaces, pairs, ties, springs and cavities of the run.
     ///
     /// # Errors
     /// Returns the first part that is missing or additional.
@@ -250,8 +252,9 @@ impl Source {
         };
         let mut differs = differs(&self.parts, &found).or_else(|| differs(&found, &self.parts));
         if found != self.parts {
-            differs = differs
-                .or_else(|| Some("the order of bodies, surfaces, pairs, ties or springs".into()));
+            differs = differs.or_else(|| {
+                Some("the order of bodies, surfaces, pairs, ties, springs or cavities".into())
+            });
         }
         differs.map_or(Ok(()), |part| Err(CheckpointError::Differs { part }))
     }

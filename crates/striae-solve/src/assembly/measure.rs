@@ -43,6 +43,7 @@ impl System<'_> {
         let mut norms = Norms {
             force: free.sqrt() / force,
             round_off: unavoidable / force,
+            volume: self.volumes,
             ..Norms::default()
         };
         for (pair, evaluation) in contacts.iter().enumerate() {

@@ -15,8 +15,10 @@ mod pair;
 mod placed;
 mod whole;
 
+mod cavities;
 mod contact;
 mod creeping;
 mod guided;
+mod springs;
 mod system;
 mod textured;

@@ -71,6 +71,7 @@ fn touching(model: &Model, first: BodyId, second: BodyId, advice: &mut Advice) {
         pairs: vec![whole(bodies)],
         ties: Vec::new(),
         springs: Vec::new(),
+        cavities: Vec::new(),
         steps: Vec::new(),
         title: String::new(),
         solver: model.solver.clone(),
