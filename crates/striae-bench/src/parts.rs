@@ -169,6 +169,7 @@ fn assembly(model: &striae_solve::model::Model) -> Result<Value, Box<dyn Error>>
         positions: state.positions.clone(),
         tractions: Vec::new(),
         rigid: state.rigid.clone(),
+        pressures: state.pressures.clone(),
     };
     let setting = Setting {
         context: &context,

@@ -153,6 +153,7 @@ pub fn stiffness(model: &Model) -> Result<SparseMatrix, Box<dyn Error>> {
         positions: state.positions.clone(),
         tractions: Vec::new(),
         rigid: state.rigid.clone(),
+        pressures: state.pressures.clone(),
     };
     let imposed = context.imposed(0.0);
     let setting = Setting {

@@ -15,6 +15,10 @@ pub enum Part {
     Pair,
     /// A tie.
     Tie,
+    /// Springs.
+    Spring,
+    /// A cavity.
+    Cavity,
     /// A step.
     Step,
 }

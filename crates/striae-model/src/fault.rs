@@ -314,6 +314,22 @@ pub enum FaultKind {
         /// The earlier tie.
         other: String,
     },
+    /// A cavity that encloses nothing, or a content that it cannot have.
+    #[error("cavity `{cavity}`: {cause}")]
+    Cavity {
+        /// The cavity.
+        cavity: String,
+        /// Reason, and what is needed.
+        cause: String,
+    },
+    /// A spring that has no force, no direction or too many ends.
+    #[error("spring `{spring}`: {cause}")]
+    Spring {
+        /// The spring.
+        spring: String,
+        /// Reason, and what is needed.
+        cause: String,
+    },
     /// A pair is stabilised, but all steps have inertia.
     #[error(
         "pair `{pair}` is stabilised, but every step is dynamic, where inertia carries bodies across gaps. Remove `stabilise`"
@@ -512,7 +528,7 @@ pub enum FaultKind {
     },
     /// A rigid body that nothing could move as it should.
     #[error(
-        "step `{step}` frees coordinates of rigid body `{rigid}`; only bodies that nodes are tied to, that have a mass or that are a side of a pair can be free"
+        "step `{step}` frees coordinates of rigid body `{rigid}`; only bodies that nodes are tied to, that have a mass, that springs hold or that are a side of a pair can be free"
     )]
     FreeRigid {
         /// The rigid body.

@@ -19,11 +19,12 @@ mod names;
 mod path;
 
 pub use build::{
-    BodyBuilder, Component, Components, ModelBuilder, PairBuilder, RigidBuilder, SectionBuilder,
-    SideBuilder, StepBuilder, TieBuilder, axial, body, circumferential, composite,
-    equal_increments, extended, itself, model, nodal, painted, pair, plane, radial, rigid,
-    rigid_solid, rigid_surface, section, shared_force, solver, step, surface, tie, tied, turned,
-    uniform, usual_curve,
+    BodyBuilder, CavityBuilder, Component, Components, ModelBuilder, PairBuilder, RigidBuilder,
+    SectionBuilder, SideBuilder, SpringBuilder, SpringEndBuilder, StepBuilder, TieBuilder, axial,
+    body, cavity, circumferential, composite, equal_increments, extended, itself, model, nodal,
+    nodes_of, painted, pair, plane, point_of, radial, reference_of, rigid, rigid_solid,
+    rigid_surface, section, shared_force, solver, spring, spring_along, spring_to_point, step,
+    surface, tie, tied, turned, uniform, usual_curve,
 };
 pub use check::{Draft, DraftBody, DraftPair, DraftStep, Known, Named, Validate, misshapen};
 pub use fault::{Fault, FaultKind, Faults};

@@ -7,7 +7,9 @@ use striae_solve::{
     model::Procedure,
     newton::Increment,
     problem::Problem,
-    report::{PairReport, TieReport, bodies, held_reactions, pairs, rigid_bodies, ties},
+    report::{
+        PairReport, TieReport, bodies, cavities, held_reactions, pairs, rigid_bodies, springs, ties,
+    },
     resolved::resolved,
     state::State,
 };
@@ -72,6 +74,7 @@ pub fn state_row(problem: &Problem, state: &State) -> Vec<(String, f64)> {
     for tie in ties(problem, state) {
         add_tie(&mut row, &tie);
     }
+    add_parts(&mut row, problem, state);
     for (name, force) in held_reactions(problem, state) {
         add_vector(&mut row, &format!("reaction.{name}"), &force);
     }
@@ -86,6 +89,20 @@ pub fn state_row(problem: &Problem, state: &State) -> Vec<(String, f64)> {
         add_vector(&mut row, &format!("angle.{name}"), &rigid.angles);
     }
     row
+}
+
+/// Adds springs and cavities.
+fn add_parts(row: &mut Vec<(String, f64)>, problem: &Problem, state: &State) {
+    for spring in springs(problem, state) {
+        let name = format!("spring.{}", spring.name);
+        row.push((format!("{name}.tension"), spring.tension));
+        row.push((format!("{name}.elongation"), spring.elongation));
+        add_vector(row, &format!("{name}.force"), &spring.force);
+    }
+    for cavity in cavities(problem, state) {
+        row.push((format!("cavity.{}.pressure", cavity.name), cavity.pressure));
+        row.push((format!("cavity.{}.volume", cavity.name), cavity.volume));
+    }
 }
 
 /// Returns whether any step has inertia.

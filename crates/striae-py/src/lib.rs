@@ -6,6 +6,7 @@
 //! owns.
 
 mod array;
+mod cavity;
 mod cells;
 mod component;
 mod declared;
@@ -26,6 +27,7 @@ mod results;
 mod rigid;
 mod run;
 mod side;
+mod spring;
 mod start;
 mod step;
 mod texture;
@@ -38,6 +40,7 @@ use pyo3::prelude::*;
 mod _striae {
     #[pymodule_export]
     use super::{
+        cavity::Cavity,
         component::{Contact, Evaluation, Increment, MeshPair, MeshSurface, State},
         declared::declared_laws,
         everything::Everything,
@@ -54,6 +57,7 @@ mod _striae {
         run::files::report,
         run::returned::returned,
         run::{Run, deck_of, resume, run},
+        spring::Spring,
         step::{Step, check_function, moves},
         texture::Texture,
         tie::Tie,

@@ -22,6 +22,7 @@ use striae::{
 };
 
 use crate::{
+    cavity::Cavity,
     everything::Everything,
     fault::{model_error, model_faults, raised, refused},
     friction::Friction,
@@ -30,6 +31,7 @@ use crate::{
     pair::Pair,
     raised::Raised,
     rigid::Rigid,
+    spring::Spring,
     start,
     step::Step,
     tie::Tie,
@@ -83,6 +85,8 @@ impl Model {
         pairs: Vec<PyRef<'_, Pair>>,
         everything: Option<PyRef<'_, Everything>>,
         ties: Vec<PyRef<'_, Tie>>,
+        springs: Vec<PyRef<'_, Spring>>,
+        cavities: Vec<PyRef<'_, Cavity>>,
         steps: Vec<PyRef<'_, Step>>,
         solver: Solver,
     ) -> PyResult<Self> {
@@ -125,6 +129,12 @@ impl Model {
         }
         for tie in ties {
             built = built.tie(tie.0.clone());
+        }
+        for spring in springs {
+            built = built.spring(spring.0.clone());
+        }
+        for cavity in cavities {
+            built = built.cavity(cavity.0.clone());
         }
         for step in &steps {
             built = built.step(step.0.clone());
@@ -197,6 +207,16 @@ impl Model {
     fn pairs(&self) -> Vec<String> {
         let pairs = self.model.pairs.iter();
         pairs.map(|pair| pair.name.clone()).collect()
+    }
+
+    fn cavities(&self) -> Vec<String> {
+        let cavities = self.model.cavities.iter();
+        cavities.map(|cavity| cavity.name.clone()).collect()
+    }
+
+    fn springs(&self) -> Vec<String> {
+        let springs = self.model.springs.iter();
+        springs.map(|spring| spring.name.clone()).collect()
     }
 
     fn ties(&self) -> Vec<String> {

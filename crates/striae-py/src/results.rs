@@ -191,6 +191,18 @@ impl Results {
         Ok(all)
     }
 
+    /// Pressure and volume of a cavity.
+    fn cavity(&self, name: &str) -> Option<(f64, f64)> {
+        let report = self.results().cavity(name)?;
+        Some((report.pressure, report.volume))
+    }
+
+    /// Tension and elongation of springs, and force on their first end.
+    fn spring(&self, name: &str) -> Option<(f64, f64, [f64; 3])> {
+        let report = self.results().spring(name)?;
+        Some((report.tension, report.elongation, report.force.into()))
+    }
+
     /// Displacement, angles in degrees, force and torque of a rigid body.
     fn rigid(&self, name: &str) -> Option<[[f64; 3]; 4]> {
         let results = self.results();

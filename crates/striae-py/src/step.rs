@@ -1,9 +1,11 @@
 //! Steps under construction.
+//!
+//! Longer than other files, as it is the one list of all that a step can state.
 
 use pyo3::{exceptions::PyValueError, prelude::*};
 use striae::model::{
-    ActuationKind, Axes, Clock, Component, Course, Curve, Freedom, Function, History, Increments,
-    LoadExtent, LoadKind, StepBuilder, Value, equal_increments, step,
+    ActuationKind, Axes, CavityContent, Clock, Component, Course, Curve, Freedom, Function,
+    History, Increments, LoadExtent, LoadKind, StepBuilder, Value, equal_increments, step,
 };
 use striae::solve::actuation::strain_in_axes;
 
@@ -288,6 +290,23 @@ impl Step {
             temperature,
         };
         self.actuate(body, section, kind, along)
+    }
+
+    /// Pressure, volume or ratio of the volume of a cavity, by the word for it.
+    fn fill(&mut self, cavity: &str, kind: &str, target: f64, along: Along) -> PyResult<()> {
+        let curve = along.curve()?;
+        let content = match kind {
+            "pressure" => CavityContent::Pressure(target),
+            "volume" => CavityContent::Volume(target),
+            _ => CavityContent::VolumeRatio(target),
+        };
+        self.build(|step| step.fill(cavity, content).along(curve));
+        Ok(())
+    }
+
+    fn seal(&mut self, cavity: &str, ambient: f64, exponent: f64) {
+        let content = CavityContent::Gas { ambient, exponent };
+        self.build(|step| step.fill(cavity, content));
     }
 
     /// A tension along a unit vector, or along fibres.

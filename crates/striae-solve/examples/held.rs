@@ -103,6 +103,8 @@ fn model(count: usize) -> Model {
             feature_angle: None,
         }],
         ties: Vec::new(),
+        springs: Vec::new(),
+        cavities: Vec::new(),
         steps: Vec::new(),
         solver: Solver {
             backend: Backend::Condensed,

@@ -1,7 +1,10 @@
 //! Residual and tangent of the whole problem at a trial state.
+//!
+//! Longer than other files, as all phases of an assembly are in one place.
 
 mod agreement;
 mod blocks;
+mod cavities;
 mod contacts;
 mod context;
 mod elements;
@@ -12,6 +15,7 @@ mod loads;
 mod measure;
 mod places;
 mod scatter;
+mod springs;
 mod stabilisation;
 mod start;
 mod terms;
@@ -222,6 +226,8 @@ struct System<'a> {
     forces: NodalForces,
     /// Of the forces in all elements.
     square_of_forces: f64,
+    /// Largest error of the volume of a cavity, over the volume at rest.
+    volumes: f64,
     inertia: Arc<Inertia>,
     /// Ties of all nodes; empty where nothing is tied.
     ties: Vec<Option<Tie>>,
@@ -258,6 +264,7 @@ impl<'a> System<'a> {
             residual: vec![0.0; layout.unknowns()],
             forces: NodalForces::zero(nodes, problem.model.rigid_surfaces.len()),
             square_of_forces: 0.0,
+            volumes: 0.0,
             inertia: Arc::new(Inertia::new(&problem.ties, trial, imposed)),
             ties: Vec::new(),
             positions: &trial.positions,
@@ -280,7 +287,7 @@ fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
 }
 
 impl System<'_> {
-    /// Elements and loads, and on a rank that is alone everything but contact.
+    /// Elements, loads, springs and cavities, and on a rank that is alone everything but contact.
     fn bodies(
         &mut self,
         configurations: &[Configuration],
@@ -289,8 +296,10 @@ impl System<'_> {
         places: &ElementPlaces,
     ) -> Result<OfBodies, CutBack> {
         let imposed = setting.imposed;
-        let bodies = self.elements(places, trial, setting.state, imposed)?;
+        let mut bodies = self.elements(places, trial, setting.state, imposed)?;
         self.loads(configurations, trial, imposed)?;
+        self.springs(trial, setting.state, imposed, &mut bodies)?;
+        self.cavities(trial, imposed)?;
         if self.context.problem.share.is_alone() {
             self.beside_elements(imposed);
         }

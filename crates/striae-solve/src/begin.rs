@@ -12,6 +12,7 @@ use crate::{
     outcome::CutBack,
     problem::Problem,
     rigid::fitted_velocity,
+    spring::add_dashpots,
     state::State,
 };
 
@@ -51,6 +52,8 @@ pub fn begin(
         problem.ties.follow(&mut velocities);
         let assembled = assembled_at_start(&context, state, workspace)?;
         let mut forces = assembled.forces;
+        let on = (&mut forces.tensions[..], &mut forces.internal[..]);
+        add_dashpots(&problem.links, &state.positions, &velocities, on);
         let holding;
         (accelerations, holding) =
             workspace.accelerations(&context, state, &imposed, &velocities, &forces)?;
@@ -67,6 +70,11 @@ pub fn begin(
         begun.forces.pushed = forces.pushed;
         begun.forces.reaction = forces.reaction;
         begun.forces.applied = forces.applied;
+        if !problem.links.is_empty() {
+            // Springs may be stretched at rest, and velocities that begin here drive dashpots.
+            begun.forces.internal = forces.internal.clone();
+            begun.forces.tensions = forces.tensions;
+        }
         if imposed.actuations != state.actuations {
             begun.forces.internal = forces.internal;
             let stored = assembled.bodies.strain;

@@ -162,6 +162,11 @@ impl Motion {
         (1.0 - self.scheme.alpha_m) / (self.scheme.beta * self.elapsed * self.elapsed)
     }
 
+    /// `d v_1 / d x_1` of a free component.
+    pub fn slope(&self) -> f64 {
+        self.scheme.gamma / (self.scheme.beta * self.elapsed)
+    }
+
     /// `a_alpha` of all nodes.
     pub(crate) fn weighted_accelerations(
         &self,

@@ -2,7 +2,7 @@
 //!
 //! Bodies and rigid bodies that are tied together move as one. A motion `u = c + w x (x - x0)`
 //! of each is stopped by rows `e . u(x) = 0`: of prescribed components and coordinates,
-//! of the normals of closed contact nodes and, where friction holds, of the tangents; between
+//! of the normals of closed contact nodes and, where friction holds, of the tangents, and of springs; between
 //! two bodies that both move, of the difference of their motions. What is left is the null
 //! space of the rows. Lengths are scaled by the size of the bodies.
 //!
@@ -10,7 +10,7 @@
 //!
 //! Longer than other files, as rows and the words for their null space belong together.
 
-use nalgebra::{DMatrix, SymmetricEigen};
+use nalgebra::{DMatrix, Matrix3, SymmetricEigen};
 use striae_contact::{
     initial::signed_gap,
     interference::{Stage, facing},
@@ -23,8 +23,10 @@ use striae_surface::node::SurfaceNode;
 use crate::{
     assembly::StepContext,
     interference::{Positions, configuration, thickness},
+    node::GlobalNode,
     outcome::{FreeMotion, FreeMover},
     problem::Problem,
+    spring::Link,
     state::State,
 };
 
@@ -181,6 +183,7 @@ pub fn free_motion(
     let mut rows = Rows::new(context, at);
     rows.prescribed(context, at);
     rows.prescribed_coordinates(context, at);
+    rows.springs(context.problem, at);
     let slipping = slipping(contacts.iter().copied());
     for (pair, nodes) in contacts.iter().enumerate() {
         let is_rough = !context.plan.frictions[pair].is_frictionless();
@@ -309,6 +312,40 @@ impl Rows {
                 self.add(&[(component, row)]);
             }
         }
+    }
+
+    /// Rows of springs: along them, and across those in tension, they resist the relative motion of
+    /// their ends.
+    fn springs(&mut self, problem: &Problem, at: Positions) {
+        for link in problem.links.iter().filter(|link| link.stiffness > 0.0) {
+            let Some(length) = link.length(at.nodes) else {
+                continue;
+            };
+            self.spring(problem, at, (link, &length.gradient));
+            let is_tight = link.tension(length.value, 0.0) > 0.0;
+            if is_tight && length.curvature != Matrix3::zeros() {
+                for axis in 0..3 {
+                    let across = length.curvature.column(axis) * length.value;
+                    self.spring(problem, at, (link, &across.into()));
+                }
+            }
+        }
+    }
+
+    fn spring(&mut self, problem: &Problem, at: Positions, (link, along): (&Link, &Vec3)) {
+        let bodies = problem.model.bodies.len();
+        let of_node = |node: GlobalNode| match problem.tie_of[node] {
+            Some(rigid) => self.of[bodies + rigid],
+            None => self.of[problem.body_node(node).0],
+        };
+        let ends = [(Some(link.a), 1.0), (link.second(), -1.0)];
+        let ends = ends.into_iter().filter_map(|(node, sign)| {
+            let component = of_node(node?)?;
+            let row = self.entries(component, &at.nodes[node?], &(along * sign));
+            Some((component, row))
+        });
+        let entries: Vec<_> = ends.collect();
+        self.add(&entries);
     }
 
     /// Rows of the closed nodes of a pair.

@@ -3,7 +3,7 @@
 //! The supervariable of a node consists of its three position components and three traction
 //! unknowns for every contact surface it is active on, so that the factorisation treats gap rows
 //! and their multipliers together. The six coordinates of a rigid body that nodes are tied to or
-//! that contact may move form another one, eliminated last. The unknowns of a share in the whole
+//! that contact may move form another one, as does the pressure in a cavity; these are eliminated last. The unknowns of a share in the whole
 //! system are described in `layout/shared.rs`.
 
 mod growth;
@@ -33,6 +33,8 @@ pub struct Layout {
     tractions: Vec<[Vec<Option<usize>>; 2]>,
     /// Supervariable of every rigid body whose coordinates are unknowns.
     rigids: Vec<Option<usize>>,
+    /// Supervariable of the first cavity; those of the others follow.
+    cavities: usize,
     extent: Extent,
 }
 
@@ -81,6 +83,8 @@ impl Layout {
             })
         });
         let rigids = rigids.collect();
+        let cavities = sizes.len();
+        sizes.resize(cavities + problem.cavities.len(), 1);
         let mut offsets = vec![0];
         for size in &sizes {
             offsets.push(offsets[offsets.len() - 1] + size);
@@ -95,6 +99,7 @@ impl Layout {
             nodes,
             tractions,
             rigids,
+            cavities,
             extent,
         }
     }
@@ -163,6 +168,26 @@ impl Layout {
     /// First unknown of a rigid body, if its coordinates are unknowns.
     pub fn rigid(&self, rigid: usize) -> Option<usize> {
         self.rigids[rigid].map(|supervariable| self.offsets[supervariable])
+    }
+
+    /// Supervariable of the pressure in a cavity.
+    pub fn pressure(&self, cavity: usize) -> Supervariable {
+        Supervariable(self.cavities + cavity)
+    }
+
+    /// Unknown that is the pressure in a cavity.
+    pub fn cavity(&self, cavity: usize) -> usize {
+        self.offsets[self.cavities + cavity]
+    }
+
+    /// Cavity of whose pressure an unknown is, if it is of one.
+    pub fn cavity_of(&self, unknown: usize) -> Option<usize> {
+        unknown.checked_sub(self.offsets[self.cavities])
+    }
+
+    /// Returns whether there are pressures of cavities.
+    pub fn has_cavities(&self) -> bool {
+        self.cavities + 1 < self.offsets.len()
     }
 
     /// Returns whether no rigid body has coordinates that are unknowns.

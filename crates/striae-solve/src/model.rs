@@ -29,6 +29,10 @@ pub struct Model {
     pub pairs: Vec<Pair>,
     /// Surfaces that are glued.
     pub ties: Vec<Tie>,
+    /// Springs and dashpots.
+    pub springs: Vec<Spring>,
+    /// Cavities with a pressure inside.
+    pub cavities: Vec<Cavity>,
     /// Steps in the order in which they are run.
     pub steps: Vec<Step>,
     /// Newton's method and the linear solver.
@@ -268,6 +272,133 @@ impl Tie {
     }
 }
 
+/// Springs with dashpots beside them, one from each node of its first end, see [`crate::spring`].
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Spring {
+    /// Unique name.
+    pub name: String,
+    /// First end.
+    pub a: SpringEnd,
+    /// The line along which it acts.
+    pub line: SpringLine,
+    /// Tension over elongation.
+    pub stiffness: f64,
+    /// Tension over rate of elongation.
+    pub damping: f64,
+    /// Tension at the start.
+    pub rest: SpringRest,
+}
+
+/// A cavity, see [`crate::cavity`].
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Cavity {
+    /// Unique name.
+    pub name: String,
+    /// Its surface: faces of bodies, whose outward normals look into it.
+    pub parts: Vec<(BodyId, Vec<Face>)>,
+}
+
+/// Position of a cavity in [`Model::cavities`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+pub struct CavityId(pub usize);
+
+/// Content of a cavity in a step, until a later one states another.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CavityFilling {
+    /// The cavity.
+    pub cavity: CavityId,
+    /// Its content.
+    pub content: CavityContent,
+    /// Curve towards a target.
+    pub curve: Curve,
+}
+
+/// Kinds of contents of a cavity with their targets.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub enum CavityContent {
+    /// Pressure over that of the surroundings.
+    Pressure(f64),
+    /// Volume.
+    Volume(f64),
+    /// Volume over that at rest.
+    VolumeRatio(f64),
+    /// Gas that is sealed in at the start of the step, at the pressure and volume that the cavity
+    /// has there.
+    Gas {
+        /// Absolute pressure of the surroundings.
+        ambient: f64,
+        /// Polytropic exponent; 1 if the temperature stays.
+        exponent: f64,
+    },
+}
+
+/// End of springs that moves with a body.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub enum SpringEnd {
+    /// Nodes of a deformable body.
+    Nodes {
+        /// The body.
+        body: BodyId,
+        /// Its nodes.
+        nodes: Vec<NodeId>,
+    },
+    /// A point of a rigid body.
+    Rigid {
+        /// The body.
+        rigid: RigidId,
+        /// Position of the point at the start.
+        point: Vec3,
+    },
+}
+
+/// Line along which springs act.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub enum SpringLine {
+    /// Through both ends; the second one is a single point of a body.
+    To(SpringEnd),
+    /// Through the first end and a point that is at rest.
+    ToPoint(Vec3),
+    /// Along a fixed unit vector, to ground.
+    Along(Vec3),
+}
+
+/// Tension of springs at the start.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub enum SpringRest {
+    /// None.
+    Slack,
+    /// Tension of a spring that has none at this length.
+    Length(f64),
+    /// This tension.
+    Preload(f64),
+}
+
+impl SpringEnd {
+    /// Returns whether it is on a body of either kind.
+    pub fn is_on(&self, mover: Mover) -> bool {
+        match self {
+            Self::Nodes { body, .. } => mover == Mover::Deformable(*body),
+            Self::Rigid { rigid, .. } => mover == Mover::Rigid(*rigid),
+        }
+    }
+}
+
+impl Spring {
+    /// Ends that move with bodies.
+    pub fn ends(&self) -> impl Iterator<Item = &SpringEnd> {
+        let b = match &self.line {
+            SpringLine::To(end) => Some(end),
+            SpringLine::ToPoint(_) | SpringLine::Along(_) => None,
+        };
+        std::iter::once(&self.a).chain(b)
+    }
+
+    /// Returns whether it resists displacements of a body.
+    pub fn holds(&self, mover: Mover) -> bool {
+        self.stiffness > 0.0 && self.ends().any(|end| end.is_on(mover))
+    }
+}
+
 /// Treatment of the gaps and overlaps that the meshes of a pair have before any motion, see
 /// [`crate::initial`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -350,6 +481,8 @@ pub struct Step {
     pub forces: Vec<NodalForce>,
     /// Actuation of bodies and their sections.
     pub actuations: Vec<Actuation>,
+    /// Contents of cavities.
+    pub fillings: Vec<CavityFilling>,
     /// Displacements of rigid surfaces.
     pub rigid_motions: Vec<RigidMotion>,
     /// Changes of friction at the start of the step.

@@ -190,6 +190,7 @@ pub(crate) fn assembled_at(
         positions: state.positions.clone(),
         tractions,
         rigid: state.rigid.clone(),
+        pressures: state.pressures.clone(),
     };
     let setting = Setting {
         context,

@@ -18,6 +18,8 @@ pub struct Norms {
     pub stick: f64,
     /// Largest residual of a traction row over the largest pressure.
     pub traction: f64,
+    /// Largest error of the volume of a cavity over that at rest.
+    pub volume: f64,
 }
 
 /// Scales of the fields.
@@ -52,9 +54,8 @@ impl Norms {
 
     /// The largest of all norms; infinite where one is not a number.
     pub fn largest(&self) -> f64 {
-        [self.equilibrium(), self.gap, self.stick, self.traction]
-            .into_iter()
-            .fold(0.0, larger)
+        let all = [self.equilibrium(), self.gap, self.stick, self.traction];
+        all.into_iter().chain([self.volume]).fold(0.0, larger)
     }
 
     /// Name of the field with the largest norm.
@@ -64,6 +65,7 @@ impl Norms {
             ("gap", self.gap),
             ("stick", self.stick),
             ("traction", self.traction),
+            ("volume", self.volume),
         ];
         let largest = self.largest();
         fields
@@ -86,6 +88,7 @@ impl fmt::Display for Norms {
             gap,
             stick,
             traction,
+            volume,
         } = self;
         write!(f, "force {force:.1e}")?;
         if force <= round_off && *force > 0.0 {
@@ -94,6 +97,10 @@ impl fmt::Display for Norms {
         write!(
             f,
             "  gap {gap:.1e}  stick {stick:.1e}  traction {traction:.1e}"
-        )
+        )?;
+        match *volume > 0.0 {
+            true => write!(f, "  volume {volume:.1e}"),
+            false => Ok(()),
+        }
     }
 }

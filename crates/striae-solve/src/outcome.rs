@@ -51,6 +51,22 @@ pub enum CutBack {
         /// Error of the load.
         error: crate::load::LoadError,
     },
+    /// The ends of a spring have met.
+    #[error(
+        "spring `{spring}`: its ends have met, so that it has no direction any more; give it a fixed direction, or place its ends further apart"
+    )]
+    Spring {
+        /// Name of the spring.
+        spring: String,
+    },
+    /// The surface of a cavity has collapsed, or its gas has no volume.
+    #[error(
+        "cavity `{cavity}`: a facet of its surface has collapsed, or its gas would have a pressure below zero; change its content in smaller increments"
+    )]
+    Cavity {
+        /// Name of the cavity.
+        cavity: String,
+    },
     /// A convected texture has no direction left at a node.
     #[error(
         "pair `{pair}`: the texture at {node} of body `{body}`, or opposite to it, has no tangential part any more"

@@ -3,7 +3,9 @@
 mod planned;
 
 use planned::NO_FORCE;
-pub use planned::{Oblique, PlannedActuation, PlannedForce, PlannedLoad, Prescription, VectorPlan};
+pub use planned::{
+    Oblique, PlannedActuation, PlannedCavity, PlannedForce, PlannedLoad, Prescription, VectorPlan,
+};
 
 use std::collections::BTreeMap;
 
@@ -32,6 +34,8 @@ pub struct StepPlan {
     pub forces: Vec<PlannedForce>,
     /// Actuation of sections.
     pub actuations: Vec<PlannedActuation>,
+    /// Content of every cavity.
+    pub cavities: Vec<PlannedCavity>,
     /// Coordinates of every rigid body; `None` where they are free.
     pub rigid: Vec<[Option<Prescription>; 6]>,
     /// Driving force and torque of every rigid body.
@@ -85,6 +89,7 @@ pub fn plans(model: &Model) -> Vec<StepPlan> {
         loads: Vec::new(),
         forces: Vec::new(),
         actuations: Vec::new(),
+        cavities: vec![PlannedCavity::open(); model.cavities.len()],
         rigid: vec![[const { Some(Prescription::Hold) }; 6]; model.rigid_surfaces.len()],
         driving: vec![[VectorPlan::zero(), VectorPlan::zero()]; model.rigid_surfaces.len()],
         gravity: VectorPlan::zero(),
@@ -114,6 +119,7 @@ fn next(before: &StepPlan, step: &Step, bodies: &[Body]) -> StepPlan {
         loads: loads(before, step),
         forces: forces(before, step),
         actuations: actuations(before, step, bodies),
+        cavities: cavities(before, step),
         rigid: rigid(before, step),
         driving: driving(before, step),
         gravity: gravity(before, step),
@@ -283,6 +289,17 @@ fn actuations(before: &StepPlan, step: &Step, bodies: &[Body]) -> Vec<PlannedAct
                 None => all.push(planned),
             }
         }
+    }
+    all
+}
+
+fn cavities(before: &StepPlan, step: &Step) -> Vec<PlannedCavity> {
+    let mut all: Vec<_> = before.cavities.iter().map(PlannedCavity::held).collect();
+    for filling in &step.fillings {
+        all[filling.cavity.0] = PlannedCavity {
+            content: filling.content,
+            curve: Some(filling.curve.clone()),
+        };
     }
     all
 }

@@ -1,6 +1,8 @@
 //! A validated model, ready to be solved: everything that is the same in all increments.
 //!
 //! Of a model that ranks share, each has a problem of its own, see [`crate::share`].
+//!
+//! Longer than other files, as it lists all that follows from a model, and why none can.
 
 mod contact_facet;
 mod deformable;
@@ -30,12 +32,14 @@ use striae_surface::{
 
 use crate::{
     body_mass::{BodyMass, masses},
+    cavity::CavitySurface,
     composition::Composition,
     model::{ContactSurface, Model, Pair, RigidShape},
     node::GlobalNode,
     plan::{StepPlan, plans},
     share::Share,
     skin::Skin,
+    spring::Link,
     tie::{TieFault, Ties, first_nodes},
 };
 use contact_facet::contact_facets;
@@ -59,12 +63,16 @@ pub struct Problem {
     pub pairs: Vec<PairGeometry>,
     /// Conditions in force in each step.
     pub plans: Vec<StepPlan>,
-    /// Nodes tied to every rigid body, with its mass points.
+    /// Nodes tied to every rigid body, with its mass points and points where springs hold it.
     pub tied: Vec<Vec<GlobalNode>>,
     /// Rigid body that each global node is tied to.
     pub tie_of: Vec<Option<usize>>,
-    /// Point masses: global nodes that belong to no body, after all others.
+    /// Point masses: global nodes that belong to no body, after those that do.
     pub mass_points: Vec<(GlobalNode, f64)>,
+    /// Links of all springs.
+    pub links: Vec<Link>,
+    /// Surfaces of all cavities.
+    pub cavities: Vec<CavitySurface>,
     /// Global nodes whose mass is moved to others.
     pub massless: Vec<bool>,
     /// Mass of every body.
@@ -168,6 +176,22 @@ pub enum ProblemError {
         /// The rigid body.
         rigid: String,
     },
+    /// Springs in a model that ranks share.
+    #[error(
+        "spring `{spring}`: springs cannot be divided among several processes; run the model in one process, or remove its springs"
+    )]
+    SharedSpring {
+        /// Name of the first one.
+        spring: String,
+    },
+    /// Cavities in a model that ranks share.
+    #[error(
+        "cavity `{cavity}`: cavities cannot be divided among several processes; run the model in one process, or load its faces with a `pressure`"
+    )]
+    SharedCavity {
+        /// Name of the first one.
+        cavity: String,
+    },
     /// A pair has a rigid first side or two rigid sides.
     #[error("pair `{pair}`: side `a` must be deformable")]
     RigidSide {
@@ -222,22 +246,24 @@ impl Problem {
             compositions.push(Composition::new(body, &of_body, materials));
             elements.push(of_body);
         }
-        let (tied, mass_points) = crate::rigid::ties(&model, &first_node, &mut reference);
+        let (mut tied, mass_points) = crate::rigid::ties(&model, &first_node, &mut reference);
+        let links = crate::spring::links(&model, &first_node, (&mut reference, &mut tied));
         massless.resize(reference.len(), false);
-        let mut tie_of = vec![None; reference.len()];
-        for (rigid, nodes) in tied.iter().enumerate() {
-            nodes.iter().for_each(|&node| tie_of[node] = Some(rigid));
-        }
+        let tie_of = tie_of(&tied, reference.len());
+        let plans = plans(&model);
+        let at = (&reference[..], &plans[..]);
         Ok(Self {
+            cavities: crate::cavity::surfaces(&model, &first_node, at),
             contact_facets: contact_facets(&pairs),
             masses: masses(&model, &elements, &compositions, (&first_node, &massless)),
             massless,
-            plans: plans(&model),
+            plans,
             tied,
             shadowed,
             ties,
             tie_of,
             mass_points,
+            links,
             pairs,
             first_node,
             reference,
@@ -255,6 +281,28 @@ impl Problem {
         let free = |plan: &StepPlan| plan.rigid[rigid].iter().any(Option::is_none);
         !self.tied[rigid].is_empty() || self.plans.iter().any(free)
     }
+
+    /// Volume of a cavity with the nodes at `positions`; zero where a face has collapsed.
+    pub fn cavity_volume(&self, cavity: usize, positions: &[Vec3]) -> f64 {
+        let volume = self.cavities[cavity].volume(&self.reference, positions);
+        volume.unwrap_or(0.0)
+    }
+
+    /// Returns whether a rigid body has inertia of its own or of nodes tied to it.
+    pub(crate) fn has_mass(&self, rigid: usize) -> bool {
+        let of_bodies = self.first_node[self.model.bodies.len()];
+        let mut tied = self.tied[rigid].iter();
+        self.model.rigid_surfaces[rigid].inertia.is_some() || tied.any(|node| node.0 < of_bodies)
+    }
+}
+
+/// Rigid body that each of so many nodes is tied to.
+fn tie_of(tied: &[Vec<GlobalNode>], nodes: usize) -> Vec<Option<usize>> {
+    let mut tie_of = vec![None; nodes];
+    for (rigid, nodes) in tied.iter().enumerate() {
+        nodes.iter().for_each(|&node| tie_of[node] = Some(rigid));
+    }
+    tie_of
 }
 
 /// A pair in the reference configuration, without fibres.

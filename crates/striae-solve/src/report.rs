@@ -1,8 +1,12 @@
 //! Resultants, reactions and counts of a state. Those of pairs, ties and rigid bodies follow
 //! from what all ranks hold; reactions and those of bodies are collective.
 
+mod cavities;
+mod springs;
 mod ties;
 
+pub use cavities::{CavityReport, cavities};
+pub use springs::{SpringReport, springs};
 pub use ties::{TieReport, TieSide, TieTraction, tie_surface, tie_tractions, ties};
 
 use std::collections::BTreeSet;

@@ -18,7 +18,7 @@ use std::sync::Arc;
 use striae_contact::{pair::Geometry, side::Side};
 
 use crate::{
-    model::Model,
+    model::{Cavity, Model, Spring},
     problem::{Frame, PairGeometry, Problem, ProblemError},
     share::{Division, Share},
     team::Team,
@@ -33,7 +33,7 @@ impl Problem {
     /// with the same model and division.
     ///
     /// # Errors
-    /// As [`Problem::new`], the same on all ranks.
+    /// As [`Problem::new`], the same on all ranks, and where a model has springs or cavities.
     ///
     /// # Panics
     /// When the model is divided among more or fewer ranks than the team has.
@@ -45,6 +45,14 @@ impl Problem {
         assert_eq!(division.ranks(), team.size(), "ranks with a share");
         if team.size() == 1 {
             return Self::new(model);
+        }
+        if let Some(Spring { name, .. }) = model.springs.first() {
+            let spring = name.clone();
+            return Err(ProblemError::SharedSpring { spring });
+        }
+        if let Some(Cavity { name, .. }) = model.cavities.first() {
+            let cavity = name.clone();
+            return Err(ProblemError::SharedCavity { cavity });
         }
         let whole = Frame::new(model)?;
         let frame = restricted(whole, division, team);

@@ -29,6 +29,8 @@ pub struct State {
     pub histories: Vec<Vec<f64>>,
     /// Actuation of the bodies.
     pub actuations: Actuations,
+    /// Pressure in every cavity, over that of the surroundings.
+    pub pressures: Vec<f64>,
     /// State of every pair.
     pub pairs: Vec<PairState>,
     /// Nodal forces.
@@ -42,7 +44,7 @@ pub struct State {
 /// Forces on all global nodes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct NodalForces {
-    /// Internal forces.
+    /// Internal forces, those of springs included.
     pub internal: Vec<Vec3>,
     /// Inertia forces `M a_alpha`.
     pub inertia: Vec<Vec3>,
@@ -64,6 +66,8 @@ pub struct NodalForces {
     pub rigid: Vec<Wrench>,
     /// Force and torque that contact exerts on every rigid body.
     pub pushed: Vec<Wrench>,
+    /// Tension of every link of springs, see [`crate::spring`]; its forces are internal ones.
+    pub tensions: Vec<f64>,
 }
 
 /// Energies since the start of the simulation.
@@ -71,7 +75,7 @@ pub struct NodalForces {
 pub struct Energies {
     /// Kinetic energy.
     pub kinetic: f64,
-    /// Stored elastic energy.
+    /// Stored elastic energy, that of springs since the start included.
     pub strain: f64,
     /// Work of reactions, loads and moving rigid surfaces, and of what changes
     /// velocities at once at the start of a step.
@@ -79,7 +83,7 @@ pub struct Energies {
     /// Work of actuation: what changes of stress-free strains and tensions of the bodies add to
     /// their stored energy.
     pub actuation: f64,
-    /// Work dissipated by viscous and plastic flow in all bodies.
+    /// Work dissipated by viscous and plastic flow in all bodies, and by the dashpots of springs.
     pub inelastic: f64,
     /// Work dissipated by friction in all pairs.
     pub friction: f64,
@@ -117,6 +121,7 @@ impl NodalForces {
             stabilised: vec![Wrench::default(); rigid],
             rigid: vec![Wrench::default(); rigid],
             pushed: vec![Wrench::default(); rigid],
+            tensions: Vec::new(),
         }
     }
 }
@@ -145,12 +150,16 @@ impl State {
                 .map(|body| problem.rest(body))
                 .collect(),
             actuations: Actuations::default(),
+            pressures: vec![0.0; problem.cavities.len()],
             pairs: problem
                 .pairs
                 .iter()
                 .map(|pair| PairState::untouched(&pair.contact))
                 .collect(),
-            forces: NodalForces::zero(problem.reference.len(), problem.model.rigid_surfaces.len()),
+            forces: NodalForces {
+                tensions: problem.links.iter().map(|link| link.preload).collect(),
+                ..NodalForces::zero(problem.reference.len(), problem.model.rigid_surfaces.len())
+            },
             energies: Energies::default(),
             gained: 0.0,
         }

@@ -24,6 +24,7 @@ use striae_mesh::{FacetId, Vec3};
 use crate::{
     assembly::StepContext,
     interference::{Positions, configuration},
+    model::{BodyId, Mover},
     problem::Problem,
     state::State,
 };
@@ -56,7 +57,12 @@ pub(crate) fn tipping(
     let problem = context.problem;
     (0..problem.model.bodies.len()).find_map(|body| {
         let own = |pair: &usize| problem.pairs[*pair].bodies.contains(&Some(body));
-        let tied = problem.ties.joins(body)
+        let springs = &problem.model.springs;
+        let sprung = springs
+            .iter()
+            .any(|of| of.holds(Mover::Deformable(BodyId(body))));
+        let tied = sprung
+            || problem.ties.joins(body)
             || !problem
                 .nodes_of(body)
                 .all(|node| problem.tie_of[node].is_none());

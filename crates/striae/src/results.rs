@@ -1,4 +1,4 @@
-//! Results of a state: nodal fields as slices, forces of pairs and ties, reactions.
+//! Results of a state: nodal fields as slices, forces of pairs, ties and springs, reactions.
 
 use nalgebra::Matrix3;
 use striae_contact::unknowns::NodeResult;
@@ -6,7 +6,7 @@ use striae_element::nodal_cauchy_stress;
 use striae_mesh::{NodeId, Vec3};
 use striae_solve::{
     problem::Problem,
-    report::{self, PairReport, RigidReport, TieReport},
+    report::{self, CavityReport, PairReport, RigidReport, SpringReport, TieReport},
     state::State,
 };
 
@@ -108,6 +108,18 @@ impl<'a> Results<'a> {
     pub fn pair(&self, pair: &str) -> Option<PairReport> {
         let at = self.pair_index(pair)?;
         report::pairs(self.problem, self.state).into_iter().nth(at)
+    }
+
+    /// Tension, elongation and force of springs.
+    pub fn spring(&self, name: &str) -> Option<SpringReport> {
+        let all = report::springs(self.problem, self.state);
+        all.into_iter().find(|spring| spring.name == name)
+    }
+
+    /// Pressure and volume of a cavity.
+    pub fn cavity(&self, name: &str) -> Option<CavityReport> {
+        let all = report::cavities(self.problem, self.state);
+        all.into_iter().find(|cavity| cavity.name == name)
     }
 
     /// Forces and moments of a tie.

@@ -146,6 +146,8 @@ fn eleven_faults() -> Model {
     let steps = vec![press(&bodies), hold(&bodies)];
     Model {
         ties: Vec::new(),
+        springs: Vec::new(),
+        cavities: Vec::new(),
         title: "Eleven faults".into(),
         rigid_surfaces: vec![
             plane("floor", Vec3::zeros(), Vec3::z()),
@@ -213,6 +215,7 @@ fn press(bodies: &[striae::model::Body]) -> Step {
         forces: Vec::new(),
         loads: vec![pressed(1.0), pressed(2.0)],
         actuations: Vec::new(),
+        fillings: Vec::new(),
         rigid_motions: vec![RigidMotion {
             surface: RigidId(1),
             coordinates: free,

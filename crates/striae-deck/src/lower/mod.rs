@@ -6,6 +6,7 @@ mod admissible;
 mod axis;
 mod body;
 pub(crate) mod cards;
+mod cavity;
 mod condition;
 mod contact;
 mod curve;
@@ -27,6 +28,7 @@ mod place;
 mod rigid;
 mod sections;
 mod sets;
+mod spring;
 mod step;
 mod surfaces;
 mod texture;
@@ -50,13 +52,14 @@ use step::LoweredStep;
 use striae_model::{
     Draft, DraftPair, DraftStep, Fault, FaultKind as ModelFault, Known, Lowered, Named, fitted,
 };
-use striae_solve::model::{Backend, Model, RigidSurface, Solver, Strategy, Tie};
+use striae_solve::model::{Backend, Cavity, Model, RigidSurface, Solver, Spring, Strategy, Tie};
 
 /// Parts that the rest of a deck refers to by name.
 struct Scope<'r> {
     bodies: &'r Bodies,
     rigid: &'r Names,
     pair_names: &'r Names,
+    cavity_names: &'r Names,
     curves: &'r curve::Curves,
     parameters: &'r function::Parameters,
 }
@@ -130,6 +133,8 @@ struct Parts {
     rigid: Vec<Option<RigidSurface>>,
     pairs: Vec<LoweredPair>,
     ties: Vec<Option<Tie>>,
+    springs: Vec<Option<Spring>>,
+    cavities: Vec<Option<Cavity>>,
     /// Pairs of contact of everything, none if it is not requested; `None` after faults.
     lowered: Option<Lowered>,
     steps: Vec<LoweredStep>,
@@ -156,7 +161,10 @@ fn parts(raw: &raw::Simulation, base: &Path, known: Known, faults: &mut FaultLis
     let names = list(&raw.tie).iter().map(|at| at.value.name.as_ref());
     Names::new("tie", names, faults);
     let ties = contact::ties(list(&raw.tie), &surfaces, faults);
-    let draft = drafted(raw, &bodies, &rigid, &pairs, &ties, known);
+    let springs = spring::springs(list(&raw.spring), &surfaces, faults);
+    let (cavity_names, cavities) = cavity::cavities(list(&raw.cavity), &bodies, faults);
+    let joints = (&ties[..], &springs[..]);
+    let draft = drafted(raw, (&bodies, &rigid, &pairs), joints, known);
     let lowered = everything::lowered(raw, &draft, &surfaces, faults);
     match &lowered {
         Some(lowered) => {
@@ -169,6 +177,7 @@ fn parts(raw: &raw::Simulation, base: &Path, known: Known, faults: &mut FaultLis
         bodies: &bodies,
         rigid: &rigid_names,
         pair_names: &pair_names,
+        cavity_names: &cavity_names,
         curves: &curves,
         parameters: &parameters,
     };
@@ -178,6 +187,8 @@ fn parts(raw: &raw::Simulation, base: &Path, known: Known, faults: &mut FaultLis
         rigid,
         pairs,
         ties,
+        springs,
+        cavities,
         lowered,
         steps,
     }
@@ -186,10 +197,8 @@ fn parts(raw: &raw::Simulation, base: &Path, known: Known, faults: &mut FaultLis
 /// Parts that are known besides the steps and contact of everything.
 fn drafted<'a>(
     raw: &'a raw::Simulation,
-    bodies: &'a Bodies,
-    rigid: &'a [Option<RigidSurface>],
-    pairs: &'a [LoweredPair],
-    ties: &'a [Option<Tie>],
+    (bodies, rigid, pairs): (&'a Bodies, &'a [Option<RigidSurface>], &'a [LoweredPair]),
+    (ties, springs): (&'a [Option<Tie>], &'a [Option<Spring>]),
     known: Known,
 ) -> Draft<'a> {
     let rigid = list(&raw.rigid).iter().zip(rigid);
@@ -208,11 +217,17 @@ fn drafted<'a>(
         name: name(&raw.value.name),
         part: part.as_ref(),
     });
+    let springs = list(&raw.spring).iter().zip(springs);
+    let springs = springs.map(|(raw, part)| Named {
+        name: name(&raw.value.name),
+        part: part.as_ref(),
+    });
     Draft {
         bodies: bodies.drafts(),
         rigid_surfaces: rigid.collect(),
         pairs: pairs.collect(),
         ties: ties.collect(),
+        springs: springs.collect(),
         steps: Vec::new(),
         known,
     }
@@ -225,14 +240,8 @@ impl Parts {
             Some(_) => known,
             None => Known::InPart,
         };
-        let mut draft = drafted(
-            raw,
-            &self.bodies,
-            &self.rigid,
-            &self.pairs,
-            &self.ties,
-            known,
-        );
+        let parts = (&self.bodies, &self.rigid[..], &self.pairs[..]);
+        let mut draft = drafted(raw, parts, (&self.ties, &self.springs), known);
         if let Some(lowered) = &self.lowered {
             draft.extend(&lowered.pairs);
         }
@@ -259,6 +268,8 @@ impl Parts {
                 .chain(self.lowered?.pairs.into_iter().map(Some))
                 .collect::<Option<_>>()?,
             ties: whole(self.ties)?,
+            springs: whole(self.springs)?,
+            cavities: whole(self.cavities)?,
             steps: self.steps.into_iter().map(|lowered| lowered.step).collect(),
             solver: solver(raw.solver.as_ref().map(|solver| &solver.value)),
         })

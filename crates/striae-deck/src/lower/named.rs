@@ -15,6 +15,8 @@ pub(super) fn places(raw: &raw::Simulation, faults: &FaultList<'_>) -> Places {
     let rigid = list(&raw.rigid).iter().map(|at| at.value.name.as_ref());
     let pairs = list(&raw.pair).iter().map(|at| at.value.name.as_ref());
     let ties = list(&raw.tie).iter().map(|at| at.value.name.as_ref());
+    let springs = list(&raw.spring).iter().map(|at| at.value.name.as_ref());
+    let cavities = list(&raw.cavity).iter().map(|at| at.value.name.as_ref());
     let steps = list(&raw.step).iter().map(|at| at.value.name.as_ref());
     let of = |part: Part, names: Vec<Option<&At<Text>>>| -> Vec<(Part, String, Location)> {
         let names = names.into_iter().flatten();
@@ -26,6 +28,8 @@ pub(super) fn places(raw: &raw::Simulation, faults: &FaultList<'_>) -> Places {
         of(Part::Rigid, rigid.collect()),
         of(Part::Pair, pairs.collect()),
         of(Part::Tie, ties.collect()),
+        of(Part::Spring, springs.collect()),
+        of(Part::Cavity, cavities.collect()),
         of(Part::Step, steps.collect()),
     ];
     Places::new(all.into_iter().flatten())

@@ -51,6 +51,20 @@ pub(super) fn span(path: &Path, raw: &raw::Simulation, places: &Places) -> Span 
             let tie = list(&raw.tie).get(*index);
             tie.map(|tie| of_tie(tie, rest))
         }
+        [Field("springs"), Index(index), rest @ ..] => {
+            let spring = list(&raw.spring).get(*index);
+            spring.map(|spring| of_spring(spring, rest))
+        }
+        [Field("cavities"), Index(index), ..] => {
+            let cavity = list(&raw.cavity).get(*index);
+            cavity.map(|at| {
+                at.value
+                    .name
+                    .as_ref()
+                    .map_or(&at.span, |name| &name.span)
+                    .clone()
+            })
+        }
         [Field("rigid_surfaces"), Index(index), rest @ ..] => {
             let rigid = list(&raw.rigid).get(*index);
             rigid.map(|rigid| of_rigid(rigid, rest))
@@ -119,6 +133,20 @@ fn of_tie(tie: &At<raw::BodyTie>, rest: &[Segment]) -> Span {
     let name = tie.value.name.as_ref().map(|at| &at.span);
     let found = within.map(|at| &at.span).or(name);
     found.unwrap_or(&tie.span).clone()
+}
+
+fn of_spring(spring: &At<raw::Spring>, rest: &[Segment]) -> Span {
+    let raw = &spring.value;
+    let found = match rest {
+        [Segment::Field("a"), ..] => raw.a.as_ref().map(|at| &at.span),
+        [Segment::Field("b"), ..] => raw.b.as_ref().map(|at| &at.span),
+        [Segment::Field("direction"), ..] => raw.direction.as_ref().map(|at| &at.span),
+        [Segment::Field("stiffness"), ..] => raw.stiffness.as_ref().map(|at| &at.span),
+        [Segment::Field("rest"), ..] => raw.free_length.as_ref().map(|at| &at.span),
+        _ => None,
+    };
+    let name = raw.name.as_ref().map(|at| &at.span);
+    found.or(name).unwrap_or(&spring.span).clone()
 }
 
 fn of_contact(at: &At<raw::Contact>, rest: &[Segment]) -> Span {

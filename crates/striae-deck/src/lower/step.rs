@@ -1,7 +1,7 @@
 //! Steps: increments and what each step states.
 
 use super::{
-    Listed, Scope, actuation, condition, friction, inertia, list,
+    Listed, Scope, actuation, cavity, condition, friction, inertia, list,
     place::{ConditionSpans, StepSpans},
     rigid,
 };
@@ -52,6 +52,7 @@ fn lower_step(
     let loads = condition::loads(raw, scope, faults);
     let forces = condition::forces(list(&raw.force), scope, faults);
     let actuations = actuation::actuations(raw, scope, faults);
+    let fillings = cavity::fillings(list(&raw.cavity), scope, faults);
     let velocities = inertia::velocities(raw, name, scope, faults);
     let gravity = inertia::gravity(raw, scope, faults);
     let rigid_motions = rigid::motions(list(&raw.rigid), scope, faults);
@@ -61,6 +62,7 @@ fn lower_step(
         && loads.whole()
         && forces.whole()
         && actuations.whole()
+        && fillings.whole()
         && velocities.whole()
         && gravity.is_some()
         && rigid_motions.whole()
@@ -78,6 +80,7 @@ fn lower_step(
                 ("loads", loads.spans),
                 ("forces", forces.spans),
                 ("actuations", actuations.spans),
+                ("fillings", fillings.spans),
                 ("velocities", velocities.spans),
                 ("rigid_motions", rigid_motions.spans),
                 ("frictions", frictions.spans),
@@ -98,6 +101,7 @@ fn lower_step(
             loads: loads.items,
             forces: forces.items,
             actuations: actuations.items,
+            fillings: fillings.items,
             rigid_motions: rigid_motions.items,
             frictions: frictions.items,
         },

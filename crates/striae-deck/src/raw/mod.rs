@@ -5,6 +5,7 @@
 
 mod actuation;
 mod body;
+mod cavity;
 mod contact;
 mod everything;
 mod fibres;
@@ -12,13 +13,14 @@ mod material;
 mod mesh;
 mod sets;
 mod settings;
+mod spring;
 mod step;
 mod texture;
 
 use super::{declare::table, read::At};
 pub(crate) use {
-    actuation::*, body::*, contact::*, everything::*, fibres::*, material::*, mesh::*, sets::*,
-    settings::*, step::*, texture::*,
+    actuation::*, body::*, cavity::*, contact::*, everything::*, fibres::*, material::*, mesh::*,
+    sets::*, settings::*, spring::*, step::*, texture::*,
 };
 
 use super::value::{NamedNumbers, OneOrMore, Text};
@@ -51,6 +53,10 @@ table! {
         optional contact: Contact,
         /// Surfaces of bodies that are glued together.
         optional tie: Vec<At<BodyTie>>,
+        /// Springs and dashpots.
+        optional spring: Vec<At<Spring>>,
+        /// Cavities with a pressure inside.
+        optional cavity: Vec<At<Cavity>>,
         /// Curves along which conditions change.
         optional curve: Vec<At<NamedCurve>>,
         /// Parts of the loading history, in the order in which they are run.

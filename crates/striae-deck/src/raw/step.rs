@@ -2,7 +2,7 @@
 //!
 //! Longer than other files, as it is the one list of all that a step can state.
 
-use super::{Actuation, Friction};
+use super::{Actuation, Filling, Friction};
 use crate::{
     declare::{either, table, words},
     faults::FaultList,
@@ -103,6 +103,8 @@ table! {
         optional force: Vec<At<Force>>,
         /// Stress-free strains and tensions of bodies.
         optional actuation: Vec<At<Actuation>>,
+        /// Contents of cavities.
+        optional cavity: Vec<At<Filling>>,
         /// Motions of rigid bodies.
         optional rigid: Vec<At<RigidMotion>>,
         /// Changes of friction at the start of the step.

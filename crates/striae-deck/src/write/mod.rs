@@ -10,11 +10,13 @@
 //! that gives the same bits when it is read, see `value`.
 
 mod actuation;
+mod cavity;
 pub(crate) mod law;
 mod mesh;
 mod output;
 mod pair;
 mod rigid;
+mod spring;
 mod step;
 pub(crate) mod value;
 
@@ -57,6 +59,10 @@ pub fn write(model: &Model, output: &Output) -> Result<String, Unstated> {
     let steps: String = (0..model.steps.len()).map(|at| writer.step(at)).collect();
     let pairs: String = (0..model.pairs.len()).map(|at| writer.pair(at)).collect();
     let ties: String = (0..model.ties.len()).map(|at| writer.tie(at)).collect();
+    let springs = 0..model.springs.len();
+    let springs: String = springs.map(|at| writer.spring(at)).collect();
+    let cavities = 0..model.cavities.len();
+    let cavities: String = cavities.map(|at| writer.cavity(at)).collect();
     let rigid = 0..model.rigid_surfaces.len();
     let rigid: String = rigid.map(|at| writer.rigid(at)).collect();
     let bodies: String = (0..model.bodies.len()).map(|at| writer.body(at)).collect();
@@ -66,7 +72,8 @@ pub fn write(model: &Model, output: &Output) -> Result<String, Unstated> {
     }
     let title = format!("title = {}\n", text(&model.title));
     let (output, solver) = (output::output(output), solver(&model.solver));
-    Ok(title + &output + &solver + &bodies + &rigid + &pairs + &ties + &writer.curves() + &steps)
+    let joints = pairs + &ties + &springs + &cavities;
+    Ok(title + &output + &solver + &bodies + &rigid + &joints + &writer.curves() + &steps)
 }
 
 /// A model on its way to text.

@@ -87,6 +87,10 @@ impl<'m> Writer<'m> {
                     .collect(),
             ),
             (
+                "cavity",
+                step.fillings.iter().map(|one| self.filling(one)).collect(),
+            ),
+            (
                 "rigid",
                 step.rigid_motions
                     .iter()

@@ -44,7 +44,9 @@ pub fn extended(mut model: Model, steps: Vec<StepBuilder>) -> Result<Model, Faul
 fn resolved(model: &Model, steps: &[StepBuilder], faults: &mut Vec<Fault>) -> Vec<Resolved> {
     let rigid = model.rigid_surfaces.iter().map(|rigid| rigid.name.as_str());
     let pairs = model.pairs.iter().map(|pair| pair.name.as_str());
-    let names = Names::new(&model.bodies, rigid.collect(), pairs.collect());
+    let mut names = Names::new(&model.bodies, rigid.collect(), pairs.collect());
+    let cavities = model.cavities.iter();
+    names.cavities = cavities.map(|cavity| cavity.name.as_str()).collect();
     let mut prescribed = Prescribed::default();
     let before: &[Step] = &model.steps;
     before.iter().for_each(|step| prescribed.after(step));

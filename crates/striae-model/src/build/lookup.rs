@@ -1,7 +1,7 @@
 //! Names that stand for ids and members; unknown ones are faults.
 
 use striae_mesh::{Face, NodeId, Sets};
-use striae_solve::model::{Body, BodyId, PairId, RigidId};
+use striae_solve::model::{Body, BodyId, CavityId, PairId, RigidId};
 
 use crate::{
     check::Known,
@@ -15,6 +15,7 @@ pub(super) struct Names<'a> {
     bodies: &'a [Body],
     rigid: Vec<&'a str>,
     pairs: Vec<&'a str>,
+    pub(super) cavities: Vec<&'a str>,
     /// Returns whether there are no other pairs.
     pairs_known: Known,
 }
@@ -25,6 +26,7 @@ impl<'a> Names<'a> {
             bodies,
             rigid,
             pairs,
+            cavities: Vec::new(),
             pairs_known: Known::Whole,
         }
     }
@@ -62,6 +64,15 @@ impl<'a> Names<'a> {
         faults: &mut Vec<Fault>,
     ) -> Option<RigidId> {
         find("rigid surface", name, &self.rigid, path, faults).map(RigidId)
+    }
+
+    pub(super) fn cavity(
+        &self,
+        name: &str,
+        path: &Path,
+        faults: &mut Vec<Fault>,
+    ) -> Option<CavityId> {
+        find("cavity", name, &self.cavities, path, faults).map(CavityId)
     }
 
     pub(super) fn pair(&self, name: &str, path: &Path, faults: &mut Vec<Fault>) -> Option<PairId> {

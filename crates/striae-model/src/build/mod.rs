@@ -3,14 +3,17 @@
 //! Bodies, sets, rigid surfaces and pairs are referred to by name; [`ModelBuilder::build`] looks
 //! them up, validates the model and closes gaps as its pairs request.
 
+mod cavity;
 mod extend;
 mod lookup;
 mod paint;
 mod pair;
 mod parts;
+mod spring;
 mod step;
 mod tie;
 
+pub use cavity::{CavityBuilder, cavity};
 pub use extend::extended;
 pub use paint::{axial, circumferential, nodal, painted, radial, turned, uniform};
 pub use pair::{PairBuilder, SideBuilder, itself, pair, rigid, surface};
@@ -18,12 +21,18 @@ pub use parts::{
     BodyBuilder, RigidBuilder, SectionBuilder, body, composite, plane, rigid_solid, rigid_surface,
     section, tied,
 };
+pub use spring::{
+    SpringBuilder, SpringEndBuilder, nodes_of, point_of, reference_of, spring, spring_along,
+    spring_to_point,
+};
 pub use step::{
     Component, Components, StepBuilder, equal_increments, shared_force, step, usual_curve,
 };
 pub use tie::{TieBuilder, tie};
 
-use striae_solve::model::{Backend, Body, Model, Pair, RigidSurface, Solver, Strategy, Tie};
+use striae_solve::model::{
+    Backend, Body, Cavity, Model, Pair, RigidSurface, Solver, Spring, Strategy, Tie,
+};
 
 use crate::{
     check::{Draft, DraftPair, DraftStep, Known, Named, Validate},
@@ -46,6 +55,8 @@ pub struct ModelBuilder {
     pairs: Vec<PairBuilder>,
     everything: Option<Everything>,
     ties: Vec<TieBuilder>,
+    springs: Vec<SpringBuilder>,
+    cavities: Vec<CavityBuilder>,
     steps: Vec<StepBuilder>,
     solver: Solver,
 }
@@ -60,6 +71,8 @@ pub fn model(title: impl Into<String>) -> ModelBuilder {
         pairs: Vec::new(),
         everything: None,
         ties: Vec::new(),
+        springs: Vec::new(),
+        cavities: Vec::new(),
         steps: Vec::new(),
         solver: solver(),
     }
@@ -110,6 +123,18 @@ impl ModelBuilder {
         self
     }
 
+    /// Adds springs.
+    pub fn spring(mut self, spring: SpringBuilder) -> Self {
+        self.springs.push(spring);
+        self
+    }
+
+    /// Adds a cavity.
+    pub fn cavity(mut self, cavity: CavityBuilder) -> Self {
+        self.cavities.push(cavity);
+        self
+    }
+
     /// Adds a step after those before.
     pub fn step(mut self, step: StepBuilder) -> Self {
         self.steps.push(step);
@@ -140,10 +165,16 @@ impl ModelBuilder {
         let ties: Vec<Option<Tie>> = (self.ties.iter().enumerate())
             .map(|(index, tie)| tie.resolved(index, &names, &mut faults))
             .collect();
+        let springs: Vec<Option<Spring>> = (self.springs.iter().enumerate())
+            .map(|(index, spring)| spring.resolved(index, (&names, &rigid), &mut faults))
+            .collect();
+        let cavities: Vec<Option<Cavity>> = (self.cavities.iter().enumerate())
+            .map(|(index, cavity)| cavity.resolved(index, &names, &mut faults))
+            .collect();
         let lowered = match &self.everything {
             None => Some(Lowered::default()),
             Some(everything) => {
-                let draft = self.draft(&rigid, &pairs, &ties, &[]);
+                let draft = self.draft((&rigid, &pairs), (&ties, &springs), &[]);
                 everything.lowered(&draft, &mut faults)
             }
         };
@@ -152,6 +183,7 @@ impl ModelBuilder {
         let all = named.iter().copied();
         let all = all.chain(of_lowered.map(|pair| pair.name.as_str()));
         let mut names = Names::new(&self.bodies, rigid_names, all.collect());
+        names.cavities = self.cavities.iter().map(CavityBuilder::name).collect();
         if lowered.is_none() {
             names = names.with_other_pairs();
         }
@@ -160,7 +192,7 @@ impl ModelBuilder {
             .map(|(index, step)| step.resolved(index, &names, &mut prescribed, &mut faults))
             .collect();
         if !faults.is_empty() {
-            let mut draft = self.draft(&rigid, &pairs, &ties, &steps);
+            let mut draft = self.draft((&rigid, &pairs), (&ties, &springs), &steps);
             match &lowered {
                 Some(lowered) => draft.extend(&lowered.pairs),
                 None => draft.known = Known::InPart,
@@ -177,6 +209,8 @@ impl ModelBuilder {
                 .chain(lowered.into_iter().flat_map(|of| of.pairs))
                 .collect(),
             ties: ties.into_iter().flatten().collect(),
+            springs: springs.into_iter().flatten().collect(),
+            cavities: cavities.into_iter().flatten().collect(),
             steps: steps.into_iter().map(|resolved| resolved.step).collect(),
             solver: self.solver,
         };
@@ -186,9 +220,8 @@ impl ModelBuilder {
     /// Draft of the model if some names are unknown.
     fn draft<'a>(
         &'a self,
-        rigid: &'a [Option<RigidSurface>],
-        pairs: &'a [Option<Pair>],
-        ties: &'a [Option<Tie>],
+        (rigid, pairs): (&'a [Option<RigidSurface>], &'a [Option<Pair>]),
+        (ties, springs): (&'a [Option<Tie>], &'a [Option<Spring>]),
         steps: &'a [Resolved],
     ) -> Draft<'a> {
         let rigid = self.rigid.iter().zip(rigid).map(|(of, part)| Named {
@@ -204,6 +237,10 @@ impl ModelBuilder {
             name: of.name(),
             part: tie.as_ref(),
         });
+        let springs = self.springs.iter().zip(springs).map(|(of, part)| Named {
+            name: of.name(),
+            part: part.as_ref(),
+        });
         let steps = steps.iter().map(|resolved| DraftStep {
             step: &resolved.step,
             known: resolved.known,
@@ -214,6 +251,7 @@ impl ModelBuilder {
             rigid_surfaces: rigid.collect(),
             pairs: pairs.collect(),
             ties: ties.collect(),
+            springs: springs.collect(),
             steps: steps.collect(),
             known: Known::Whole,
         }

@@ -8,9 +8,9 @@ use nalgebra::Vector3;
 use striae_law::friction::Friction;
 use striae_mesh::{NodeId, Vec3};
 use striae_solve::model::{
-    Actuation, ActuationKind, Axes, BodyId, Curve, Displacement, Freedom, Gravity, Increments,
-    Load, LoadExtent, LoadKind, Mover, NodalForce, Procedure, Release, RigidMotion, Step, Value,
-    Velocity,
+    Actuation, ActuationKind, Axes, BodyId, CavityContent, CavityFilling, Curve, Displacement,
+    Freedom, Gravity, Increments, Load, LoadExtent, LoadKind, Mover, NodalForce, Procedure,
+    Release, RigidMotion, Step, Value, Velocity,
 };
 
 use super::lookup::Names;
@@ -90,6 +90,7 @@ pub struct StepBuilder {
     loads: Vec<(Place, LoadKind<Value>, LoadExtent, Curve)>,
     forces: Vec<(Place, Spread, Curve)>,
     actuations: Vec<(String, Option<String>, ActuationKind, Curve)>,
+    fillings: Vec<(String, CavityContent, Curve)>,
     motions: Vec<(String, RigidMotion)>,
     velocities: Vec<(Owner, Velocity)>,
     frictions: Vec<(String, Friction)>,
@@ -132,6 +133,7 @@ enum Last {
     Load,
     Force,
     Actuation,
+    Filling,
     Motion,
     Velocity,
     Gravity,
@@ -152,6 +154,7 @@ pub fn step(name: impl Into<String>) -> StepBuilder {
             loads: Vec::new(),
             forces: Vec::new(),
             actuations: Vec::new(),
+            fillings: Vec::new(),
             rigid_motions: Vec::new(),
             frictions: Vec::new(),
         },
@@ -160,6 +163,7 @@ pub fn step(name: impl Into<String>) -> StepBuilder {
         loads: Vec::new(),
         forces: Vec::new(),
         actuations: Vec::new(),
+        fillings: Vec::new(),
         motions: Vec::new(),
         velocities: Vec::new(),
         frictions: Vec::new(),
@@ -339,6 +343,13 @@ impl StepBuilder {
         self
     }
 
+    /// Takes the content of a cavity to a target, or seals in the gas that is there.
+    pub fn fill(mut self, cavity: impl Into<String>, content: CavityContent) -> Self {
+        self.fillings.push((cavity.into(), content, Curve::Ramp));
+        self.last = Last::Filling;
+        self
+    }
+
     /// Takes gravity to an acceleration.
     pub fn gravity(mut self, acceleration: impl Into<Vec3>) -> Self {
         self.step.gravity = Some(Gravity {
@@ -423,6 +434,7 @@ impl StepBuilder {
             Last::Load => self.loads.last_mut().map(|(_, _, _, curve)| curve),
             Last::Force => self.forces.last_mut().map(|(_, _, curve)| curve),
             Last::Actuation => self.actuations.last_mut().map(|(_, _, _, curve)| curve),
+            Last::Filling => self.fillings.last_mut().map(|(_, _, curve)| curve),
             Last::Motion => self.motions.last_mut().map(|(_, motion)| &mut motion.curve),
             Last::Gravity => self.step.gravity.as_mut().map(|gravity| &mut gravity.curve),
         };
@@ -525,6 +537,14 @@ impl StepBuilder {
                 body,
                 section,
                 kind: *kind,
+                curve: curve.clone(),
+            })
+        });
+        resolved.step.fillings = resolved.all("fillings", &self.fillings, |index, of| {
+            let (name, content, curve) = of;
+            Some(CavityFilling {
+                cavity: names.cavity(name, &at("fillings", index), faults)?,
+                content: *content,
                 curve: curve.clone(),
             })
         });

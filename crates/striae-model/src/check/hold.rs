@@ -1,12 +1,12 @@
-//! Restraint of bodies: displacement conditions must stop all six rigid motions of a body that is
-//! in no contact pair and not tied, in every step without inertia, see [`RigidMotions`].
+//! Restraint of bodies: displacement conditions and springs to ground must stop all six rigid motions
+//! of a body that is in no contact pair, not tied and not joined to others by springs, in every step without inertia, see [`RigidMotions`].
 
 use std::collections::BTreeMap;
 
 use striae_mesh::{Mesh, NodeId, Vec3};
 use striae_solve::{
     axes::{NodeFrame, are_parallel},
-    model::{BodyId, ContactSurface, Procedure, Step},
+    model::{BodyId, ContactSurface, Mover, Procedure, SpringEnd, SpringLine, Step},
 };
 
 use super::{Draft, List};
@@ -29,7 +29,7 @@ pub(super) fn check(draft: &Draft<'_>, faults: &mut List) {
             if step.procedure != Procedure::QuasiStatic {
                 continue;
             }
-            let motions = free_motions(mesh, &prescribed);
+            let motions = free_motions(draft, (body, mesh), &prescribed);
             if motions > 0 {
                 let kind = FaultKind::Free {
                     body: of.name.to_owned(),
@@ -47,9 +47,49 @@ pub(super) fn is_tied(draft: &Draft<'_>, body: BodyId) -> bool {
     let rigid = draft.rigid_surfaces.iter().filter_map(|rigid| rigid.part);
     let mut to_rigid = rigid.flat_map(|rigid| &rigid.ties);
     let mut ties = draft.ties.iter().filter_map(|tie| tie.part);
-    // A tie that is not known might be what holds it.
-    let unknown = draft.ties.iter().any(|tie| tie.part.is_none());
-    unknown || to_rigid.any(|(tied, _)| *tied == body) || ties.any(|tie| tie.joins(body))
+    // A tie or a spring that is not known might be what holds it.
+    let unknown = draft.ties.iter().any(|tie| tie.part.is_none())
+        || draft.springs.iter().any(|spring| spring.part.is_none());
+    unknown
+        || is_sprung_to_another(draft, body)
+        || to_rigid.any(|(tied, _)| *tied == body)
+        || ties.any(|tie| tie.joins(body))
+}
+
+/// Returns whether springs join a body to another one.
+fn is_sprung_to_another(draft: &Draft<'_>, body: BodyId) -> bool {
+    let springs = draft.springs.iter().filter_map(|spring| spring.part);
+    let mut holding = springs.filter(|spring| spring.holds(Mover::Deformable(body)));
+    holding.any(|spring| !spring.ends().all(|end| end.is_on(Mover::Deformable(body))))
+}
+
+/// Returns whether springs hold a body or rigid body.
+pub(super) fn is_sprung(draft: &Draft<'_>, mover: Mover) -> bool {
+    let mut springs = draft.springs.iter();
+    // A spring that is not known might be what holds it.
+    springs.any(|spring| spring.part.is_none_or(|spring| spring.holds(mover)))
+}
+
+/// Places of nodes of a body that springs hold against ground, with directions in which they do.
+pub(super) fn grounded(draft: &Draft<'_>, (body, mesh): (BodyId, &Mesh)) -> Vec<(NodeId, Vec3)> {
+    let mut all = Vec::new();
+    let springs = draft.springs.iter().filter_map(|spring| spring.part);
+    for spring in springs.filter(|spring| spring.stiffness > 0.0) {
+        let SpringEnd::Nodes { body: of, nodes } = &spring.a else {
+            continue;
+        };
+        for node in nodes.iter().filter(|_| *of == body) {
+            let direction = match &spring.line {
+                SpringLine::To(_) => None,
+                SpringLine::ToPoint(point) => {
+                    (mesh.positions[node.index()] - point).try_normalize(0.0)
+                }
+                SpringLine::Along(direction) => Some(*direction),
+            };
+            all.extend(direction.map(|direction| (*node, direction)));
+        }
+    }
+    all
 }
 
 fn touches(draft: &Draft<'_>, body: BodyId) -> bool {
@@ -93,8 +133,11 @@ pub(super) fn left(held: &[(usize, Vec3)], vector: &Vec3) -> Vec3 {
     frame.map_or(*vector, |frame| frame.free() * vector)
 }
 
-fn free_motions(mesh: &Mesh, held: &Held) -> usize {
+fn free_motions(draft: &Draft<'_>, (body, mesh): (BodyId, &Mesh), held: &Held) -> usize {
     let mut motions = RigidMotions::of(mesh);
+    for (node, direction) in grounded(draft, (body, mesh)) {
+        motions.stop(&mesh.positions[node.index()], &direction);
+    }
     for (node, of_node) in held {
         for (_, direction) in of_node {
             motions.stop(&mesh.positions[node.index()], direction);

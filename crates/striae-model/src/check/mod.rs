@@ -5,6 +5,7 @@
 //! judged as a whole is left out. A whole model is checked by [`Validate::faults`].
 
 mod actuations;
+mod cavities;
 mod conditions;
 mod extents;
 mod facets;
@@ -19,6 +20,7 @@ mod pushed;
 mod references;
 mod rigid;
 mod sections;
+mod springs;
 mod steps;
 mod ties;
 mod triangles;
@@ -30,7 +32,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use striae_law::bulk::Material;
 use striae_mesh::Mesh;
-use striae_solve::model::{Body, BodySection, Model, Pair, RigidSurface, Step, Tie};
+use striae_solve::model::{Body, BodySection, Model, Pair, RigidSurface, Spring, Step, Tie};
 
 use crate::{
     fault::{Fault, FaultKind, Faults},
@@ -103,6 +105,8 @@ pub struct Draft<'a> {
     pub pairs: Vec<DraftPair<'a>>,
     /// Ties.
     pub ties: Vec<Named<'a, Tie>>,
+    /// Springs.
+    pub springs: Vec<Named<'a, Spring>>,
     /// Steps.
     pub steps: Vec<DraftStep<'a>>,
     /// Completeness of everything else.
@@ -136,6 +140,7 @@ impl Validate for Model {
         if faults.is_empty() {
             faults = Draft::of(self).faults();
             faults.extend(numbers::faults(self));
+            faults.extend(cavities::faults(self));
         }
         faults
     }
@@ -152,6 +157,10 @@ impl<'a> Draft<'a> {
             name: &tie.name,
             part: Some(tie),
         });
+        let springs = model.springs.iter().map(|spring| Named {
+            name: &spring.name,
+            part: Some(spring),
+        });
         let steps = model.steps.iter().map(|step| DraftStep {
             step,
             known: Known::Whole,
@@ -162,6 +171,7 @@ impl<'a> Draft<'a> {
             rigid_surfaces: rigid.collect(),
             pairs: Vec::new(),
             ties: ties.collect(),
+            springs: springs.collect(),
             steps: steps.collect(),
             known: Known::Whole,
         };
@@ -197,6 +207,7 @@ impl<'a> Draft<'a> {
         self.names(&mut faults);
         let impossible = pairs::check(self, &mut faults);
         ties::check(self, &mut faults);
+        springs::check(self, &mut faults);
         let partial = steps::check(self, &impossible, &mut faults);
         triangles::check(self, &mut faults);
         extents::check(self, &mut faults);
@@ -243,6 +254,8 @@ impl<'a> Draft<'a> {
         );
         let ties = self.ties.iter().map(|tie| tie.name);
         distinct("tie", "ties", ties, faults);
+        let springs = self.springs.iter().map(|spring| spring.name);
+        distinct("spring", "springs", springs, faults);
         let steps = self.steps.iter().map(|step| step.step.name.as_str());
         distinct("step", "steps", steps, faults);
     }

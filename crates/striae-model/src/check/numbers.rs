@@ -4,7 +4,7 @@ use striae_law::bulk::{LameConstants, Material};
 use striae_mesh::Vec3;
 use striae_solve::model::{
     Clock, ClosedGaps, Course, Curve, History, Initial, Model, Pair, Procedure, RigidInertia,
-    RigidShape, Step,
+    RigidShape, Spring, SpringEnd, SpringLine, SpringRest, Step,
 };
 use striae_surface::texture::{Lines, Paint};
 
@@ -35,6 +35,40 @@ pub(super) fn faults(model: &Model) -> Vec<Fault> {
     let tolerance = model.solver.tolerance;
     faults.range(path, "the tolerance", tolerance, POSITIVE);
     faults.0
+}
+
+/// The numbers of springs that are out of their ranges.
+pub(super) fn of_spring(spring: &Spring, path: &Path, faults: &mut List) {
+    let mut range = |field: &'static str, found: f64, expected| {
+        let what = format!("`{field}` of spring `{}`", spring.name);
+        faults.range(path.clone().field(field), &what, found, expected);
+    };
+    range("stiffness", spring.stiffness, NOT_NEGATIVE);
+    range("damping", spring.damping, NOT_NEGATIVE);
+    match spring.rest {
+        SpringRest::Slack => {}
+        SpringRest::Length(length) => range("free_length", length, POSITIVE),
+        SpringRest::Preload(tension) => range("preload", tension, FINITE),
+    }
+    let point = |end: &SpringEnd| match end {
+        SpringEnd::Rigid { point, .. } => Some(*point),
+        SpringEnd::Nodes { .. } => None,
+    };
+    let points = spring.ends().filter_map(point);
+    let fixed = match spring.line {
+        SpringLine::ToPoint(point) => Some(point),
+        SpringLine::To(_) | SpringLine::Along(_) => None,
+    };
+    for coordinate in points
+        .chain(fixed)
+        .flat_map(|point| [point.x, point.y, point.z])
+    {
+        range("point", coordinate, FINITE);
+    }
+    if let SpringLine::Along(direction) = &spring.line {
+        let place = format!("`direction` of spring `{}`", spring.name);
+        faults.direction(path.clone().field("direction"), &place, direction);
+    }
 }
 
 /// The numbers of contact of everything that are out of their ranges.
@@ -224,6 +258,7 @@ fn of_step(step: &Step, path: &Path, faults: &mut List) {
     curves("forces", &mut step.forces.iter().map(|of| &of.curve));
     let mut actuations = step.actuations.iter().map(|of| &of.curve);
     curves("actuations", &mut actuations);
+    curves("fillings", &mut step.fillings.iter().map(|of| &of.curve));
     let mut motions = step.rigid_motions.iter().map(|of| &of.curve);
     curves("rigid_motions", &mut motions);
     if let Some(gravity) = &step.gravity {

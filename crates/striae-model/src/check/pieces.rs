@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 
 use striae_mesh::{Face, Mesh, NodeId};
-use striae_solve::model::{BodyId, ContactSurface, Procedure};
+use striae_solve::model::{BodyId, ContactSurface, Procedure, SpringEnd, SpringLine};
 
 use super::{Draft, List, hold};
 use crate::{fault::FaultKind, motions::RigidMotions, path::Path};
@@ -49,6 +49,11 @@ fn of_piece(
                 motions.stop(place(*node), direction);
             }
         }
+        for (node, direction) in hold::grounded(draft, (body, mesh)) {
+            if own(&node) {
+                motions.stop(place(node), &direction);
+            }
+        }
         if motions.left() == 0 {
             continue;
         }
@@ -69,7 +74,7 @@ fn of_piece(
     }
 }
 
-/// Nodes of a body that contact or a tie may hold.
+/// Nodes of a body that contact, a tie or a spring to another body may hold.
 fn touched(draft: &Draft<'_>, body: BodyId, mesh: &Mesh) -> BTreeSet<NodeId> {
     let of_side = |side: &ContactSurface| match side {
         ContactSurface::Deformable { body: of, faces } if *of == body => faces.clone(),
@@ -85,6 +90,18 @@ fn touched(draft: &Draft<'_>, body: BodyId, mesh: &Mesh) -> BTreeSet<NodeId> {
     for (of, tied) in rigid.flat_map(|rigid| &rigid.ties) {
         if *of == body {
             nodes.extend(tied.iter().copied());
+        }
+    }
+    let springs = draft.springs.iter().filter_map(|spring| spring.part);
+    for spring in springs.filter(|spring| matches!(spring.line, SpringLine::To(_))) {
+        for end in spring.ends().filter(|_| spring.stiffness > 0.0) {
+            match end {
+                SpringEnd::Nodes {
+                    body: of,
+                    nodes: own,
+                } if *of == body => nodes.extend(own),
+                _ => {}
+            }
         }
     }
     nodes

@@ -13,8 +13,8 @@
 
 use striae_mesh::{Face, Mesh, NodeId, Vec3};
 use striae_solve::model::{
-    BodyId, ContactSurface, Freedom, LoadExtent, LoadKind, NodalForce, Pair, Procedure, RigidId,
-    Step,
+    BodyId, ContactSurface, Freedom, LoadExtent, LoadKind, Mover, NodalForce, Pair, Procedure,
+    RigidId, Step,
 };
 
 use super::{Draft, List, hold};
@@ -34,10 +34,13 @@ pub(super) fn check(draft: &Draft<'_>, faults: &mut List) {
         return;
     }
     for index in 0..draft.bodies.len() {
-        of_body(draft, step, BodyId(index), faults);
+        if !hold::is_sprung(draft, Mover::Deformable(BodyId(index))) {
+            of_body(draft, step, BodyId(index), faults);
+        }
     }
     for (index, rigid) in draft.rigid_surfaces.iter().enumerate() {
-        if rigid.part.is_some_and(|rigid| rigid.ties.is_empty()) {
+        let is_sprung = hold::is_sprung(draft, Mover::Rigid(RigidId(index)));
+        if rigid.part.is_some_and(|rigid| rigid.ties.is_empty()) && !is_sprung {
             of_rigid(draft, step, RigidId(index), faults);
         }
     }
@@ -104,6 +107,7 @@ fn of_body(draft: &Draft<'_>, step: &Step, body: BodyId, faults: &mut List) {
         let varies = load.kind.numbers().is_none();
         load.body == body && (turns || varies || load.extent != LoadExtent::Whole)
     });
+    let uncertain = uncertain || !step.fillings.is_empty();
     let uncertain = uncertain || step.forces.iter().any(|of| of.body == body && varies(of));
     let Some(mesh) = of
         .mesh

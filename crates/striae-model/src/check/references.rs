@@ -1,7 +1,7 @@
 //! Ids, nodes and faces that are there.
 
 use striae_mesh::{Face, Mesh, NodeId};
-use striae_solve::model::{BodyId, ContactSurface, Model, Mover, RigidId, RigidShape};
+use striae_solve::model::{BodyId, ContactSurface, Model, Mover, RigidId, RigidShape, SpringEnd};
 
 use super::List;
 use crate::{
@@ -35,6 +35,21 @@ pub(super) fn faults(model: &Model) -> Vec<Fault> {
         let path = Path::part("ties", index);
         check.side(&tie.a, path.clone().field("a"));
         check.side(&tie.b, path.field("b"));
+    }
+    for (index, spring) in model.springs.iter().enumerate() {
+        for (end, field) in spring.ends().zip(["a", "b"]) {
+            let path = Path::part("springs", index).field(field);
+            match end {
+                SpringEnd::Nodes { body, nodes } => check.nodes(*body, nodes, path),
+                SpringEnd::Rigid { rigid, .. } => check.rigid(*rigid, &path),
+            }
+        }
+    }
+    for (index, cavity) in model.cavities.iter().enumerate() {
+        for (part, (body, faces)) in cavity.parts.iter().enumerate() {
+            let path = Path::part("cavities", index).field("parts").index(part);
+            check.faces(*body, faces, path);
+        }
     }
     for index in 0..model.steps.len() {
         check.step(index);
@@ -87,6 +102,11 @@ impl Check<'_> {
                 let count = model.bodies[actuation.body.0].sections.len() + 1;
                 self.within("section", actuation.section, count, &path);
             }
+        }
+        for (index, filling) in step.fillings.iter().enumerate() {
+            let count = model.cavities.len();
+            let path = at("fillings", index);
+            self.within("cavity", [filling.cavity.0], count, &path);
         }
         for (index, velocity) in step.velocities.iter().enumerate() {
             match velocity.body {

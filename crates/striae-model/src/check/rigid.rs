@@ -4,9 +4,9 @@
 use std::collections::BTreeSet;
 
 use striae_mesh::NodeId;
-use striae_solve::model::{BodyId, ContactSurface, Freedom, RigidId, Step};
+use striae_solve::model::{BodyId, ContactSurface, Freedom, Mover, RigidId, Step};
 
-use super::{Draft, List, Positions};
+use super::{Draft, List, Positions, hold::is_sprung};
 use crate::{fault::FaultKind, path::Path};
 
 /// Notes both in every whole step.
@@ -49,8 +49,8 @@ pub(super) fn check(
     }
 }
 
-/// Rigid bodies that a step frees though nothing is tied to them, nothing touches them
-/// and they have no mass.
+/// Rigid bodies that a step frees though nothing is tied to them, nothing touches them,
+/// no spring holds them and they have no mass.
 fn free(draft: &Draft<'_>, impossible: &Positions, step: &Step) -> Vec<RigidId> {
     let nothing_moves = |rigid: &RigidId| {
         let Some(body) = draft.rigid_surfaces[rigid.0].part else {
@@ -62,7 +62,8 @@ fn free(draft: &Draft<'_>, impossible: &Positions, step: &Step) -> Vec<RigidId> 
             .filter(|(index, _)| !impossible.contains(index))
             .filter_map(|(_, pair)| pair.pair);
         let touched = possible.any(|pair| is(&pair.a) || is(&pair.b));
-        !touched && body.ties.is_empty() && body.inertia.is_none()
+        let sprung = is_sprung(draft, Mover::Rigid(*rigid));
+        !touched && !sprung && body.ties.is_empty() && body.inertia.is_none()
     };
     let motions = step.rigid_motions.iter();
     let freed = motions.filter(|motion| motion.coordinates.contains(&Freedom::Free));

@@ -109,7 +109,7 @@ pub fn fingerprint(model: &Model, output: &Output) -> u64 {
     of(&(model, output))
 }
 
-/// Fingerprints of the bodies, rigid surfaces, pairs and ties of a model, by what they are called.
+/// Fingerprints of the bodies, rigid surfaces, pairs, ties, springs and cavities of a model, by what they are called.
 pub fn part_fingerprints(model: &Model) -> Vec<(String, u64)> {
     let bodies = model.bodies.iter();
     let bodies = bodies.map(|body| (format!("body `{}`", body.name), of(body)));
@@ -119,7 +119,12 @@ pub fn part_fingerprints(model: &Model) -> Vec<(String, u64)> {
     let pairs = pairs.map(|pair| (format!("pair `{}`", pair.name), of(pair)));
     let ties = model.ties.iter();
     let ties = ties.map(|tie| (format!("tie `{}`", tie.name), of(tie)));
-    bodies.chain(rigid).chain(pairs).chain(ties).collect()
+    let springs = model.springs.iter();
+    let springs = springs.map(|spring| (format!("spring `{}`", spring.name), of(spring)));
+    let cavities = model.cavities.iter();
+    let cavities = cavities.map(|cavity| (format!("cavity `{}`", cavity.name), of(cavity)));
+    let parts = bodies.chain(rigid).chain(pairs).chain(ties);
+    parts.chain(springs).chain(cavities).collect()
 }
 
 /// Fingerprints of the steps of a model, by what they are called.
@@ -235,7 +240,7 @@ impl Source {
 }
 
 impl Source {
-    /// Checks that a model has the bodies, rigid surfaces, pairs and ties of the run.
+    /// Checks that a model has the bodies, rigid surfaces, pairs, ties, springs and cavities of the run.
     ///
     /// # Errors
     /// Returns the first part that is missing or additional.
@@ -247,8 +252,9 @@ impl Source {
         };
         let mut differs = differs(&self.parts, &found).or_else(|| differs(&found, &self.parts));
         if found != self.parts {
-            differs =
-                differs.or_else(|| Some("the order of bodies, surfaces, pairs or ties".into()));
+            differs = differs.or_else(|| {
+                Some("the order of bodies, surfaces, pairs, ties, springs or cavities".into())
+            });
         }
         differs.map_or(Ok(()), |part| Err(CheckpointError::Differs { part }))
     }

@@ -22,6 +22,7 @@ docstrings say what each is. Angles are in degrees. Nodes count from 0.
 from . import contact
 from ._axes import CylindricalAxes, NormalAxis
 from ._body import Body, BodySet
+from ._cavity import Cavity
 from ._course import Course
 from ._errors import (
     Fault,
@@ -66,17 +67,20 @@ from ._model import Advice, Check, Fit, Model, Remark, Solver
 from ._pair import Pair
 from ._results import (
     BodyResults,
+    CavityResults,
     Energies,
     Increment,
     PairResults,
     RigidResults,
     SideResults,
+    SpringResults,
     Status,
     TieResults,
 )
 from ._rigid import Plane, Rigid, RigidBody, RigidSurface
 from ._run import History, Run, resume
 from ._section import Section
+from ._spring import Spring
 from ._step import Condition, Dynamics, Increments, Step, gravity
 from ._sweep import Sweep, SweepPoint, sweep
 from ._texture import Axial, Circumferential, Nodal, Painted, Radial, Texture, Uniform
@@ -89,6 +93,8 @@ __all__ = [
     "Body",
     "BodyResults",
     "BodySet",
+    "Cavity",
+    "CavityResults",
     "Check",
     "Circumferential",
     "Condition",
@@ -144,6 +150,8 @@ __all__ = [
     "SideResults",
     "SlipSurface",
     "Solver",
+    "Spring",
+    "SpringResults",
     "Status",
     "Step",
     "Sweep",

@@ -13,6 +13,7 @@ import numpy as np
 from . import _check as check
 from . import _striae as native
 from ._body import Body, BodySet
+from ._cavity import Cavity
 from ._errors import refuse
 from ._everything import FEATURE_ANGLE, Everything, Excluded, Surface
 from ._friction import Friction
@@ -21,6 +22,7 @@ from ._mesh import Mesh
 from ._pair import Pair, _change
 from ._rigid import Rigid
 from ._run import Callback, Keep, Path, Run, closed, concluded, record, watch
+from ._spring import Spring
 from ._step import Condition, Dynamics, Increments, Step
 from ._tie import Tie
 
@@ -120,6 +122,8 @@ class Model:
     _pairs: list[Pair]
     _everything: Optional[Everything]
     _ties: list[Tie]
+    _springs: list[Spring]
+    _cavities: list[Cavity]
     _steps: list[Step]
     _solver: Solver
     _running: int
@@ -132,6 +136,8 @@ class Model:
         pairs: Sequence[Pair] = (),
         *,
         ties: Sequence[Tie] = (),
+        springs: Sequence[Spring] = (),
+        cavities: Sequence[Cavity] = (),
         steps: Sequence[Step] = (),
         title: str = "model",
         solver: Optional[Solver] = None,
@@ -142,6 +148,8 @@ class Model:
         rigid: rigid bodies.
         pairs: contact pairs.
         ties: surfaces of bodies that are glued.
+        springs: springs and dashpots.
+        cavities: cavities with a pressure inside.
         steps: the loading history; :meth:`step` adds to it.
         title: description in one line.
         solver: settings of the solver.
@@ -151,6 +159,8 @@ class Model:
         self._rigid = check.kinds(rigid, Rigid, "rigid")
         self._pairs = check.kinds(pairs, Pair, "pairs")
         self._ties = check.kinds(ties, Tie, "ties")
+        self._springs = check.kinds(springs, Spring, "springs")
+        self._cavities = check.kinds(cavities, Cavity, "cavities")
         self._steps = check.kinds(steps, Step, "steps")
         self._solver = Solver() if solver is None else check.kind(solver, Solver, "solver")
 
@@ -158,6 +168,7 @@ class Model:
         self._title = title
         self._base, self._earlier = None, []
         self._bodies, self._rigid, self._pairs, self._ties, self._steps = [], [], [], [], []
+        self._springs, self._cavities = [], []
         self._solver = Solver()
         self._everything = None
         self._running = 0
@@ -320,6 +331,20 @@ class Model:
         return [tie.name for tie in self._ties] if self._base is None else self._base.ties()
 
     @property
+    def spring_names(self) -> list[str]:
+        """Names of the springs."""
+        if self._base is not None:
+            return self._base.springs()
+        return [spring.name for spring in self._springs]
+
+    @property
+    def cavity_names(self) -> list[str]:
+        """Names of the cavities."""
+        if self._base is not None:
+            return self._base.cavities()
+        return [cavity.name for cavity in self._cavities]
+
+    @property
     def step_names(self) -> list[str]:
         """Names of the steps."""
         return self._earlier + [step.name for step in self._steps]
@@ -447,6 +472,8 @@ class Model:
             [pair._native for pair in self._pairs],
             None if self._everything is None else self._everything.native(self._rigid),
             [tie._native for tie in self._ties],
+            [spring._native for spring in self._springs],
+            [cavity._native for cavity in self._cavities],
             steps,
             (solver.backend, solver.tolerance, solver.largest_iterations),
         )
@@ -477,7 +504,8 @@ class Model:
         made.__dict__.update(self.__dict__)
         made._bodies = [copy.copy(body) for body in self._bodies]
         made._rigid, made._pairs = list(self._rigid), list(self._pairs)
-        made._ties = list(self._ties)
+        made._ties, made._springs = list(self._ties), list(self._springs)
+        made._cavities = list(self._cavities)
         made._steps, made._earlier = list(self._steps), list(self._earlier)
         made._running, made._last_run = 0, None
         return made

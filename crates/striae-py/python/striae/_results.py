@@ -373,6 +373,30 @@ class TieResults(NamedTuple):
     (no unit)."""
 
 
+class SpringResults(NamedTuple):
+    """Results of springs."""
+
+    name: str
+    """Name of the springs."""
+    tension: float
+    """Sum of their tensions, those of dashpots included (force)."""
+    elongation: float
+    """Mean of their elongations since the start (length)."""
+    force: Floats
+    """Force on end ``a``, of shape (3,) (force)."""
+
+
+class CavityResults(NamedTuple):
+    """Results of a cavity."""
+
+    name: str
+    """Name of the cavity."""
+    pressure: float
+    """Pressure over that of the surroundings (force per area)."""
+    volume: float
+    """Volume (length cubed)."""
+
+
 class Increment:
     """The converged state at the end of an increment."""
 
@@ -442,6 +466,19 @@ class Increment:
             moment_mismatch=found["moment_mismatch"],
         )
 
+    def spring(self, which: Union[int, str]) -> SpringResults:
+        """Results of springs; which: their name, or their number from 0."""
+        names = self._model.spring_names
+        name = names[self._model._position("spring", names, which)]
+        tension, elongation, force = self._results.spring(name) or (0.0, 0.0, [0.0] * 3)
+        return SpringResults(name, tension, elongation, frozen(np.array(force)))
+
+    def cavity(self, which: Union[int, str]) -> CavityResults:
+        """Results of a cavity; which: its name, or its number from 0."""
+        names = self._model.cavity_names
+        name = names[self._model._position("cavity", names, which)]
+        return CavityResults(name, *(self._results.cavity(name) or (0.0, 0.0)))
+
     def rigid(self, name: str) -> RigidResults:
         """Results of a rigid body; name: of the body."""
         self._model._position("rigid body", self._model.rigid_names, name)
@@ -462,6 +499,16 @@ class Increment:
     def ties(self) -> list[TieResults]:
         """Results of all ties."""
         return [self.tie(index) for index in range(len(self._model.tie_names))]
+
+    @property
+    def springs(self) -> list[SpringResults]:
+        """Results of all springs."""
+        return [self.spring(name) for name in self._model.spring_names]
+
+    @property
+    def cavities(self) -> list[CavityResults]:
+        """Results of all cavities."""
+        return [self.cavity(name) for name in self._model.cavity_names]
 
     def reaction(self, body: str, nodes: str) -> Floats:
         """Force that holds a set of nodes, of shape (3,) (force).

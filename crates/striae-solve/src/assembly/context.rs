@@ -12,12 +12,13 @@ use striae_surface::node::SurfaceNode;
 
 use crate::{
     actuation::Actuations,
+    cavity::Content,
     dynamics::{ImposedRate, Motion},
     initial::Offsets,
     interference::{Positions, placed},
     model::{LoadKind, Moment, Value},
     node::GlobalNode,
-    plan::{PlannedForce, StepPlan},
+    plan::{PlannedCavity, PlannedForce, StepPlan},
     problem::Problem,
     rigid::{Pose, Wrench},
     stabilisation::Dashpot,
@@ -72,6 +73,8 @@ pub struct Imposed {
     pub forces: Vec<(GlobalNode, Vec3)>,
     /// Actuation of the bodies.
     pub actuations: Actuations,
+    /// Contents of all cavities.
+    pub cavities: Vec<Content>,
     /// Coordinates of the rigid bodies; `None` where they are free.
     pub rigid: Vec<[Option<f64>; 6]>,
     /// Force and torque that drive each rigid body.
@@ -260,6 +263,7 @@ impl<'a> StepContext<'a> {
             loads: self.plan.loads.iter().map(|load| load.at(moment)).collect(),
             forces: self.forces(moment),
             actuations: self.plan.actuations(&self.problem.model.bodies, s),
+            cavities: self.contents(moment),
             rigid: self.coordinates(s),
             driving: self.driving(s),
             before: self.start.rigid.clone(),
@@ -269,6 +273,16 @@ impl<'a> StepContext<'a> {
             motion: None,
             dashpots: Vec::new(),
         }
+    }
+
+    fn contents(&self, moment: Moment) -> Vec<Content> {
+        let planned = self.plan.cavities.iter().enumerate();
+        let content = |(cavity, planned): (usize, &PlannedCavity)| {
+            let volume = self.problem.cavity_volume(cavity, &self.start.positions);
+            let from = [self.start.pressures[cavity], volume];
+            planned.content(from, self.problem.cavities[cavity].volume, moment)
+        };
+        planned.map(content).collect()
     }
 
     /// Forces at the nodes that this rank owns.

@@ -43,6 +43,7 @@ impl System<'_> {
         let mut norms = Norms {
             force: free.sqrt() / force,
             round_off: unavoidable / force,
+            volume: self.volumes,
             ..Norms::default()
         };
         for (pair, evaluation) in contacts.iter().enumerate() {
@@ -67,7 +68,7 @@ impl System<'_> {
 /// Residual force that round-off of the positions leaves in bodies without stress: an
 /// element gives `eps (k + m da_alpha/dx) |x|` with its mass `m` and the mean `k` of the
 /// diagonal of its stiffness, `(lambda + 2 G)/8 sum_ga w |G_a|^2`, which is that of its
-/// smallest height where it is flat. Collective.
+/// smallest height where it is flat; a spring gives `eps k |x|`. Collective.
 fn round_off(problem: &Problem, positions: &[Vec3], inertia: f64) -> f64 {
     let extent = positions.iter().map(|x| x.norm()).fold(0.0, f64::max);
     let extent = problem.share.largest(extent);
@@ -86,5 +87,7 @@ fn round_off(problem: &Problem, positions: &[Vec3], inertia: f64) -> f64 {
     let points: f64 = points
         .map(|(_, mass)| (mass * inertia * extent).powi(2))
         .sum();
-    10.0 * f64::EPSILON * (problem.share.sum(sum) + points).sqrt()
+    let links = problem.links.iter();
+    let links: f64 = links.map(|link| (link.stiffness * extent).powi(2)).sum();
+    10.0 * f64::EPSILON * (problem.share.sum(sum) + points + links).sqrt()
 }

@@ -155,8 +155,8 @@ impl System<'_> {
         for rigid in 0..problem.tied.len() {
             if let Some(first) = self.layout.rigid(rigid) {
                 held[first..first + 6].copy_from_slice(&self.context.fixed_rigid[rigid]);
-                // Contact alone gives a body no mass.
-                if problem.tied[rigid].is_empty() {
+                // Contact and springs alone give a body no mass.
+                if !problem.has_mass(rigid) {
                     held[first..first + 6].fill(true);
                 }
             }

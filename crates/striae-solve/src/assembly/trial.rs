@@ -14,6 +14,8 @@ pub struct Trial {
     pub tractions: Vec<Tractions>,
     /// Poses of the rigid bodies.
     pub rigid: Vec<Pose>,
+    /// Pressures in all cavities.
+    pub pressures: Vec<f64>,
 }
 
 impl Trial {

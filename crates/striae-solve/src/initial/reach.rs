@@ -8,7 +8,9 @@ use striae_contact::initial::Fit;
 use striae_mesh::Vec3;
 
 use super::translation::nearest_approach;
-use crate::model::{Axes, BodyId, ContactSurface, Freedom, Model, PairId, Procedure, RigidId};
+use crate::model::{
+    Axes, BodyId, ContactSurface, Freedom, Model, Mover, PairId, Procedure, RigidId, Spring,
+};
 
 /// Relative excess over the initial distance that counts as round-off.
 const ROUND_OFF: f64 = 1e-9;
@@ -49,7 +51,8 @@ fn body_reach(model: &Model, body: BodyId) -> Option<f64> {
     {
         return None;
     }
-    if model.ties.iter().any(|tie| tie.joins(body)) {
+    let sprung = |spring: &Spring| spring.ends().any(|end| end.is_on(Mover::Deformable(body)));
+    if model.ties.iter().any(|tie| tie.joins(body)) || model.springs.iter().any(sprung) {
         return None;
     }
     let mut farthest: Option<f64> = None;

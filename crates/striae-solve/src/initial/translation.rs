@@ -10,8 +10,8 @@ use std::collections::BTreeSet;
 use striae_mesh::Vec3;
 
 use crate::model::{
-    BodyId, ContactSurface, Curve, Displacement, Freedom, Model, Moment, PairId, Procedure,
-    RigidId, RigidShape, Step,
+    BodyId, ContactSurface, Curve, Displacement, Freedom, Model, Moment, Mover, PairId, Procedure,
+    RigidId, RigidShape, Spring, Step,
 };
 use crate::plan::starts;
 
@@ -90,7 +90,8 @@ fn body_way(model: &Model, pair: PairId, body: BodyId) -> Option<Ranges> {
     let mut others = model.pairs.iter().enumerate();
     let touched = others.any(|(at, other)| at != pair.0 && (is(&other.a) || is(&other.b)));
     let mut ties = model.rigid_surfaces.iter().flat_map(|rigid| &rigid.ties);
-    let joined = model.ties.iter().any(|tie| tie.joins(body));
+    let sprung = |spring: &Spring| spring.ends().any(|end| end.is_on(Mover::Deformable(body)));
+    let joined = model.ties.iter().any(|tie| tie.joins(body)) || model.springs.iter().any(sprung);
     if touched || joined || ties.any(|(tied, _)| *tied == body) {
         return None;
     }

@@ -64,6 +64,7 @@ pub(super) fn accepted(
         rigid: trial.rigid,
         histories: assembled.bodies.histories,
         actuations: imposed.actuations,
+        pressures: trial.pressures,
         pairs,
         forces: assembled.forces,
         energies,

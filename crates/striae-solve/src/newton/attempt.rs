@@ -91,6 +91,7 @@ impl<'a> Attempt<'a> {
             positions: first_positions(context, state, imposed, &rigid, &selections),
             tractions,
             rigid,
+            pressures: state.pressures.clone(),
         };
         Self {
             context,

@@ -80,6 +80,9 @@ pub(super) fn corrected(
             *position += setting.context.vector(node, &change) * factor;
         }
     }
+    for (cavity, pressure) in next.pressures.iter_mut().enumerate() {
+        *pressure += factor * correction[layout.cavity(cavity)];
+    }
     next.place_tied(problem);
     for (pair, tractions) in next.tractions.iter_mut().enumerate() {
         let selection = &setting.selections[pair];

@@ -66,6 +66,10 @@ fn told(problem: &Problem, own: &str) -> String {
 
 /// Words for the equation of a global unknown.
 fn equilibrium(problem: &Problem, layout: &Layout, row: usize) -> String {
+    if let Some(cavity) = layout.cavity_of(row) {
+        let name = &problem.model.cavities[cavity].name;
+        return format!("the volume of cavity `{name}`");
+    }
     let offsets = layout.offsets();
     let at = offsets.partition_point(|&offset| offset <= row) - 1;
     let rigid = (0..problem.tied.len()).find(|&rigid| layout.rigid(rigid) == Some(offsets[at]));
@@ -84,6 +88,10 @@ fn equilibrium(problem: &Problem, layout: &Layout, row: usize) -> String {
 
 /// Words for a global unknown.
 fn place(problem: &Problem, layout: &Layout, unknown: usize) -> String {
+    if let Some(cavity) = layout.cavity_of(unknown) {
+        let name = &problem.model.cavities[cavity].name;
+        return format!("the pressure in cavity `{name}` is undetermined");
+    }
     let at = layout
         .offsets()
         .partition_point(|&offset| offset <= unknown)

@@ -103,6 +103,7 @@ impl<'a> Neighbour<'a> {
         let mut trial = Trial {
             positions: base.increment.state.positions.clone(),
             rigid: workspace.poses_at(&imposed, &base.increment.state.rigid),
+            pressures: base.increment.state.pressures.clone(),
             tractions,
         };
         trial.place_tied(context.problem);
@@ -176,6 +177,7 @@ pub(crate) fn linearise(base: &Base, workspace: &mut Workspace) -> Result<(), Cu
         positions: state.positions.clone(),
         tractions: tractions.collect(),
         rigid: state.rigid.clone(),
+        pressures: state.pressures.clone(),
     };
     let setting = Setting {
         context,

@@ -1,6 +1,7 @@
 //! The linear system of an increment, kept for the next ones.
 
 mod memory;
+mod pattern;
 
 pub use memory::Memory;
 
@@ -8,9 +9,11 @@ use std::time::Instant;
 
 use striae_condensed::{Analysis, Growth, Numbering, Partition, SharedSolver, Tangent};
 use striae_contact::{complementarity::Iteration, segment::Derivatives, selection::Selection};
-use striae_sparse::{Age, SolveError, Structure, Supervariable};
+use striae_sparse::{Age, SolveError, Structure};
 
 use striae_mesh::Vec3;
+
+use pattern::Pattern;
 
 use super::{course::Course, linear::Linear, work::LinearWork};
 use crate::{
@@ -97,25 +100,7 @@ impl Workspace {
             Linear::Alone(_) => None,
             Linear::Shared(_) => Some(layout.numbering(problem)),
         };
-        let mut cliques: Vec<Vec<Supervariable>> = Vec::new();
-        // Elements at tied nodes couple the others with the rigid body, which is no bulk.
-        let mut tied = Growth::default();
-        for (body, model) in problem.model.bodies.iter().enumerate() {
-            for corners in model.mesh.elements() {
-                let nodes = problem.ties.behind(&problem.nodes(body, corners));
-                let owners = nodes.iter().map(|&node| layout.owner(problem, node));
-                let mut owners: Vec<Supervariable> = owners.collect();
-                owners.sort_unstable();
-                owners.dedup();
-                let free = nodes.iter().filter(|&&node| problem.tie_of[node].is_none());
-                cliques.push(free.map(|&node| layout.supervariable(node)).collect());
-                if nodes.iter().any(|&node| problem.tie_of[node].is_some()) {
-                    tied.extend([owners]);
-                }
-            }
-        }
-        cliques.extend((0..layout.offsets().len() - 1).map(|at| vec![Supervariable(at)]));
-        tied.extend(tied_elsewhere(problem, &tied));
+        let Pattern { cliques, tied } = Pattern::new(problem, &layout);
         let own = "the layout names its own supervariables";
         let bulk = Structure::from_cliques(layout.offsets().to_vec(), &cliques)
             .and_then(|structure| structure.with_tiers(layout.tiers()))
@@ -178,7 +163,8 @@ impl Workspace {
     /// Returns whether contact can be corrected on linearised bodies.
     pub(super) fn corrects_contact(&self) -> bool {
         let system = self.system.as_ref();
-        self.solver.has_interior() && system.is_some_and(|system| system.layout.moves_no_body())
+        let is_plain = |layout: &Layout| layout.moves_no_body() && !layout.has_cavities();
+        self.solver.has_interior() && system.is_some_and(|system| is_plain(&system.layout))
     }
 
     /// Evaluates contact on linearised bodies, see [`assemble_contact`].
@@ -246,6 +232,7 @@ impl Workspace {
             positions: state.positions.clone(),
             tractions: Vec::new(),
             rigid: state.rigid.clone(),
+            pressures: state.pressures.clone(),
         };
         let Self { solver, system, .. } = self;
         let system = system.as_mut().expect("the workspace was prepared");
@@ -320,25 +307,6 @@ impl Workspace {
         self.work.times.solution += started.elapsed();
         Ok((correction, report.age))
     }
-}
-
-/// Nodes that elements of other ranks couple with a rigid body, each on its own: a node is kept
-/// by all ranks that hold it. Collective.
-fn tied_elsewhere(problem: &Problem, tied: &Growth) -> Vec<Vec<Supervariable>> {
-    let share = &problem.share;
-    let is_tied = problem.tied.iter().any(|nodes| !nodes.is_empty());
-    if share.is_alone() || !is_tied {
-        return Vec::new();
-    }
-    let mut own = vec![false; problem.reference.len()];
-    for Supervariable(at) in tied.clone().into_iter().flatten() {
-        if let Some(own) = own.get_mut(at) {
-            *own = true;
-        }
-    }
-    let all = share.any_at_nodes(&own).into_iter().enumerate();
-    let tied = all.filter(|(_, is_tied)| *is_tied);
-    tied.map(|(at, _)| vec![Supervariable(at)]).collect()
 }
 
 impl SystemStorage {

@@ -3,7 +3,9 @@
 use nalgebra::Vector3;
 use striae_mesh::{Face, NodeId, Vec3};
 
-use crate::model::{ActuationKind, BodyId, Curve, LoadExtent, LoadKind, Moment, Value};
+use crate::model::{
+    ActuationKind, BodyId, CavityContent, Curve, LoadExtent, LoadKind, Moment, Value,
+};
 
 /// Prescription of a displacement component or a coordinate in a step.
 #[derive(Clone, Debug, PartialEq)]
@@ -89,6 +91,33 @@ pub struct PlannedActuation {
     pub to: ActuationKind,
     /// Curve towards the target.
     pub curve: Curve,
+}
+
+/// Content of a cavity in a step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlannedCavity {
+    /// The content.
+    pub content: CavityContent,
+    /// Curve towards its target; `None` where it stays as it is.
+    pub curve: Option<Curve>,
+}
+
+impl PlannedCavity {
+    /// A cavity in which the pressure is that of the surroundings.
+    pub(super) fn open() -> Self {
+        Self {
+            content: CavityContent::Pressure(0.0),
+            curve: None,
+        }
+    }
+
+    /// Content in a later step that does not state it.
+    pub(super) fn held(&self) -> Self {
+        Self {
+            content: self.content,
+            curve: None,
+        }
+    }
 }
 
 /// A vector in a step.

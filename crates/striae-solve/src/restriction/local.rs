@@ -33,6 +33,9 @@ pub(super) fn local(model: &Model, numbers: &Numbers) -> Model {
             .collect(),
         pairs: model.pairs.iter().map(pair).collect(),
         ties: model.ties.iter().map(tie).collect(),
+        // Ranks have neither of these, see `Problem::shared`.
+        springs: Vec::new(),
+        cavities: Vec::new(),
         steps: steps.map(|step| local_step(step, numbers)).collect(),
         solver: model.solver.clone(),
     }
@@ -162,6 +165,7 @@ fn local_step(step: &Step, numbers: &Numbers) -> Step {
         velocities: step.velocities.clone(),
         gravity: step.gravity.clone(),
         actuations: step.actuations.clone(),
+        fillings: step.fillings.clone(),
         rigid_motions: step.rigid_motions.clone(),
         frictions: step.frictions.clone(),
     }

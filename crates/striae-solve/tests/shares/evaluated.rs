@@ -138,5 +138,6 @@ fn trial(problem: &Problem, state: &State, selections: &[Selection]) -> Trial {
         tractions: tractions.collect(),
         positions,
         rigid,
+        pressures: Vec::new(),
     }
 }

@@ -173,6 +173,8 @@ pub fn model(case: &Case, depth: f64) -> Model {
     });
     Model {
         ties: Vec::new(),
+        springs: Vec::new(),
+        cavities: Vec::new(),
         title: case.name.clone(),
         steps: steps.collect(),
         bodies,
@@ -224,6 +226,7 @@ fn step(displacements: Vec<Displacement>) -> Step {
         loads: Vec::new(),
         forces: Vec::new(),
         actuations: Vec::new(),
+        fillings: Vec::new(),
         rigid_motions: Vec::new(),
         frictions: Vec::new(),
     }

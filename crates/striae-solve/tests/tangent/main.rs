@@ -16,8 +16,10 @@ mod placed;
 mod whole;
 mod worn;
 
+mod cavities;
 mod contact;
 mod creeping;
 mod guided;
+mod springs;
 mod system;
 mod textured;

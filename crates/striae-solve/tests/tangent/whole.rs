@@ -67,6 +67,14 @@ impl<'a> Whole<'a> {
                 let coordinates = std::array::from_fn(|at| u[first + at]);
                 *pose = self.imposed.before[rigid].moved_to(&coordinates);
             }
+            let problem = self.context.problem;
+            let placement = pose.placement(&problem.model.rigid_surfaces[rigid].reference);
+            for &node in &problem.tied[rigid] {
+                trial.positions[node] = placement.point(&problem.reference[node]);
+            }
+        }
+        for (cavity, pressure) in trial.pressures.iter_mut().enumerate() {
+            *pressure = u[self.layout.cavity(cavity)];
         }
         trial
     }
@@ -81,6 +89,7 @@ impl<'a> Whole<'a> {
                 .map(|p| p.tractions.clone())
                 .collect(),
             rigid: self.state.rigid.clone(),
+            pressures: self.state.pressures.clone(),
         }
     }
 
@@ -116,6 +125,9 @@ impl<'a> Whole<'a> {
             if let Some(first) = self.layout.rigid(rigid) {
                 u.rows_mut(first, 6).copy_from_slice(&pose.coordinates());
             }
+        }
+        for (cavity, pressure) in self.state.pressures.iter().enumerate() {
+            u[self.layout.cavity(cavity)] = *pressure;
         }
         u
     }

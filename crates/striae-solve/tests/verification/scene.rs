@@ -231,6 +231,8 @@ pub fn pieces(meshes: &[Mesh]) -> Mesh {
 pub fn model(bodies: Vec<Body>) -> Model {
     Model {
         ties: Vec::new(),
+        springs: Vec::new(),
+        cavities: Vec::new(),
         title: String::new(),
         bodies,
         rigid_surfaces: Vec::new(),
@@ -260,6 +262,7 @@ pub fn step() -> Step {
         loads: Vec::new(),
         forces: Vec::new(),
         actuations: Vec::new(),
+        fillings: Vec::new(),
         rigid_motions: Vec::new(),
         frictions: Vec::new(),
     }

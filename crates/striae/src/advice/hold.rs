@@ -1,4 +1,4 @@
-//! Restraint of each body in the first step: prescribed nodes, ties, contact.
+//! Restraint of each body in the first step: prescribed nodes, ties, springs, contact.
 //!
 //! Rigid motions that prescribed nodes leave free must be stopped by contact. A pair that touches
 //! stops all motions that its friction and normals resist, whatever its size; an open pair stops
@@ -7,7 +7,9 @@
 use striae_contact::initial::Fit;
 use striae_law::friction::Law;
 use striae_mesh::{Mesh, Vec3};
-use striae_model::{Body, BodyId, ContactSurface, Model, PairId, Procedure, RigidMotions, Step};
+use striae_model::{
+    Body, BodyId, ContactSurface, Model, Mover, PairId, Procedure, RigidMotions, Step,
+};
 
 use super::{Advice, Topic};
 
@@ -35,6 +37,12 @@ pub(super) fn look(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) {
                 "body `{}` is glued to another one by tie `{}`",
                 body.name, tie.name
             );
+            advice.note(Topic::Hold, &body.name, text);
+            continue;
+        }
+        let mut springs = model.springs.iter();
+        if let Some(spring) = springs.find(|of| of.holds(Mover::Deformable(id))) {
+            let text = format!("body `{}` is held by spring `{}`", body.name, spring.name);
             advice.note(Topic::Hold, &body.name, text);
             continue;
         }

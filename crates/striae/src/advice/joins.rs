@@ -70,6 +70,8 @@ fn touching(model: &Model, first: BodyId, second: BodyId, advice: &mut Advice) {
         rigid_surfaces: Vec::new(),
         pairs: vec![whole(bodies)],
         ties: Vec::new(),
+        springs: Vec::new(),
+        cavities: Vec::new(),
         steps: Vec::new(),
         title: String::new(),
         solver: model.solver.clone(),

@@ -1,0 +1,7 @@
+//! Cavities against closed forms.
+
+mod contents;
+mod faults;
+mod resume;
+mod scene;
+mod sphere;
