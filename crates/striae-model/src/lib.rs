@@ -26,7 +26,9 @@ pub use build::{
     rigid_surface, section, shared_force, solver, spring, spring_along, spring_to_point, step,
     surface, tie, tied, turned, uniform, usual_curve,
 };
-pub use check::{Draft, DraftBody, DraftPair, DraftStep, Known, Named, Validate, misshapen};
+pub use check::{
+    Draft, DraftBody, DraftPair, DraftStep, Known, Named, Validate, cavity_faults, misshapen,
+};
 pub use fault::{Fault, FaultKind, Faults};
 pub use fit::fitted;
 pub use general::{Everything, FEATURE_ANGLE, Lowered, Origin, everything};

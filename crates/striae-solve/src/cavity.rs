@@ -48,9 +48,9 @@ pub struct CavitySurface {
 /// Content of a cavity at a point of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Content {
-    /// This pressure.
+    /// Prescribed pressure over that of the surroundings.
     Pressure(f64),
-    /// This volume.
+    /// Prescribed volume.
     Volume(f64),
     /// Gas, by pressure and volume when it was sealed in.
     Gas {

@@ -369,7 +369,7 @@ pub enum SpringRest {
     Slack,
     /// Tension of a spring that has none at this length.
     Length(f64),
-    /// This tension.
+    /// Prescribed tension, negative for compression.
     Preload(f64),
 }
 

@@ -50,7 +50,8 @@ use place::Places;
 use std::path::Path;
 use step::LoweredStep;
 use striae_model::{
-    Draft, DraftPair, DraftStep, Fault, FaultKind as ModelFault, Known, Lowered, Named, fitted,
+    Draft, DraftPair, DraftStep, Fault, FaultKind as ModelFault, Known, Lowered, Named,
+    cavity_faults, fitted,
 };
 use striae_solve::model::{Backend, Cavity, Model, RigidSurface, Solver, Spring, Strategy, Tie};
 
@@ -92,6 +93,10 @@ pub(super) fn deck(raw: &raw::Simulation, base: &Path, faults: &mut FaultList<'_
     }
     let notes = stated(raw).chain(parts.bodies.notes()).collect();
     let model = parts.model(raw)?;
+    note(cavity_faults(&model), raw, &places, faults);
+    if !faults.is_empty() {
+        return None;
+    }
     let fitted = fitted(model).map_err(|found| note(found, raw, &places, faults));
     Some(Deck {
         model: fitted.ok()?,

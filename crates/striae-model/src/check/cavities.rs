@@ -13,8 +13,8 @@ use crate::{
     path::Path,
 };
 
-/// Every fault of the cavities of a model and of their contents.
-pub(super) fn faults(model: &Model) -> Vec<Fault> {
+/// Every fault of the cavities of a model and of their contents. Only whole models have any.
+pub fn faults(model: &Model) -> Vec<Fault> {
     let mut faults = List::default();
     let names = model.cavities.iter().map(|cavity| cavity.name.as_str());
     distinct("cavity", "cavities", names, &mut faults);

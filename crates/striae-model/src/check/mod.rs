@@ -25,6 +25,7 @@ mod steps;
 mod ties;
 mod triangles;
 
+pub use cavities::faults as cavity_faults;
 pub use numbers::misshapen;
 pub(crate) use numbers::of_everything;
 
