@@ -16,7 +16,7 @@ def block() -> st.Body:
 
 
 def weight() -> st.Rigid:
-    return st.Plane("weight", (3, 0.5, 0.5), (-1, 0, 0), reference=(3, 0.5, 0.5))
+    return st.Plane("weight", point=(3, 0.5, 0.5), normal=(-1, 0, 0), reference=(3, 0.5, 0.5))
 
 
 def test_springs_in_series_share_their_force() -> None:
