@@ -113,7 +113,10 @@ fn decks_of_springs_mean_the_same() {
 fn told(spring: &str) -> String {
     let faults = read(&format!("[[spring]]\nname = \"s\"\n{spring}")).expect_err("faults");
     let first = faults.iter().next().expect("a fault").to_string();
-    first.splitn(2, ':').nth(1).unwrap_or("").to_owned()
+    first
+        .split_once(':')
+        .map_or("", |(_, rest)| rest)
+        .to_owned()
 }
 
 #[test]

@@ -326,7 +326,7 @@ impl Rows {
             if is_tight && length.curvature != Matrix3::zeros() {
                 for axis in 0..3 {
                     let across = length.curvature.column(axis) * length.value;
-                    self.spring(problem, at, (link, &across.into()));
+                    self.spring(problem, at, (link, &across));
                 }
             }
         }
