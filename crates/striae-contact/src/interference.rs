@@ -48,6 +48,9 @@ use passage::{Moving, Through};
 
 /// Share of the local facet size that a point may be in by default.
 pub const SHARE: f64 = 0.1;
+/// Depth in which facets are paired over the deepest overlap of nodes: along the normal of two
+/// facets overlaps are longer than the nearest distances that are measured.
+pub const AHEAD: f64 = 1.25;
 
 /// Facet size over thickness from which on a body is thin.
 const THIN: f64 = 2.5;

@@ -15,9 +15,8 @@ use striae_mesh::Vec3;
 use striae_surface::normal::nodal_normals;
 
 use crate::{
-    interference::Stage,
+    interference::{AHEAD, Stage},
     pairing::{PairedFacets, Scope, compliances, paired_facets},
-    seating::AHEAD,
     segment::SegmentDerivatives,
     side::Side,
 };

@@ -28,15 +28,11 @@ use striae_surface::{facet::Shape, node::SurfaceNode};
 use crate::{
     configuration::Configuration,
     initial::overlaps,
-    interference::{Stage, Standing, nearest_of},
+    interference::{AHEAD, Stage, Standing, nearest_of},
     pairing::{PairedFacets, SIGNS, Scope, compliances, paired_facets},
     segment::{FACING, Facet, SegmentDerivatives, facet_normal, normal_between},
     side::Side,
 };
-
-/// Depth in which facets are paired over the deepest overlap of nodes: along the normal of two
-/// facets overlaps are longer than the nearest distances that are measured.
-pub const AHEAD: f64 = 1.25;
 
 /// Opposition of a facet at the start.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -23,6 +23,7 @@
 //! one. What a node follows may follow another tie in turn; rows that follow each other in
 //! a circle are solved together, and are a [`TieFault`] where they say the same.
 
+mod bound;
 mod cover;
 mod fault;
 mod order;
@@ -31,6 +32,7 @@ mod renumbered;
 mod rows;
 mod side;
 mod start;
+mod surfaces;
 
 pub use cover::covered;
 pub use fault::TieFault;

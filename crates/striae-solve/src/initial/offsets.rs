@@ -21,8 +21,8 @@ use std::sync::Arc;
 
 use striae_contact::{
     initial::overlaps,
-    interference::{Interference, Place, Stage, inside},
-    seating::{AHEAD, Fitted, Seating},
+    interference::{AHEAD, Interference, Place, Stage, inside},
+    seating::{Fitted, Seating},
 };
 
 use super::LARGEST_OVERLAP;

@@ -4,7 +4,7 @@ use striae_contact::{configuration::Configuration, placement::Placement, side::S
 use striae_mesh::{Face, Mesh, Vec3};
 use striae_surface::topology::Surface;
 
-use super::rows::contact_pair;
+use super::surfaces::contact_pair;
 
 /// Parts of the facets of two surfaces that a tie within a distance glues, from 0 to 1, in the
 /// order of the facets.

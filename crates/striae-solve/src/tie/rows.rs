@@ -4,15 +4,20 @@ use std::collections::BTreeMap;
 
 use striae_contact::{
     configuration::Configuration,
-    pair::{ContactPair, Enforcement, Geometry, PairedSurface},
     placement::Placement,
     side::Side,
     tie::{FacetRows, Joined, join},
 };
-use striae_mesh::{Face, Mesh, NodeId, Vec3};
+use striae_mesh::{NodeId, Vec3};
 use striae_surface::{node::SurfaceNode, topology::Surface};
 
-use super::{Follower, Joint, TieFault, Weights, patch::Patch, side::finer};
+use super::{
+    Follower, Joint, TieFault, Weights,
+    bound::Bound,
+    patch::Patch,
+    side::finer,
+    surfaces::{contact_pair, unmet},
+};
 use crate::model::{ContactSurface, Model};
 use crate::node::GlobalNode;
 
@@ -40,12 +45,6 @@ pub(super) struct Sides {
     patches: Vec<Patch>,
     /// Nodes that cannot move past the other side.
     glued: [Vec<GlobalNode>; 2],
-}
-
-/// Restraint of each component of each node.
-struct Bound {
-    /// By component, three a node.
-    prescribed: Vec<bool>,
 }
 
 /// `d_j x_j + sum own - sum opposite` of a component of a node.
@@ -222,38 +221,6 @@ impl Sides {
     }
 }
 
-impl Bound {
-    fn new(model: &Model, first_node: &[usize]) -> Self {
-        let mut prescribed = vec![false; 3 * first_node[model.bodies.len()]];
-        for condition in model.steps.iter().flat_map(|step| &step.displacements) {
-            for node in &condition.nodes {
-                let first = 3 * (first_node[condition.body.0] + node.index());
-                if !condition.axes.are_global() {
-                    prescribed[first..first + 3].fill(true);
-                }
-                for axis in (0..3).filter(|&axis| condition.components[axis].is_some()) {
-                    prescribed[first + axis] = true;
-                }
-            }
-        }
-        for (body, nodes) in model.rigid_surfaces.iter().flat_map(|rigid| &rigid.ties) {
-            for node in nodes {
-                let first = 3 * (first_node[body.0] + node.index());
-                prescribed[first..first + 3].fill(true);
-            }
-        }
-        Self { prescribed }
-    }
-
-    fn component(&self, node: GlobalNode, axis: usize) -> bool {
-        self.prescribed[node.component(axis)]
-    }
-
-    fn wholly(&self, node: GlobalNode) -> bool {
-        (0..3).all(|axis| self.component(node, axis))
-    }
-}
-
 /// Component with the largest share, and the share.
 fn worst(shares: &[f64; 3]) -> (usize, f64) {
     let first = (0, shares[0]);
@@ -394,71 +361,4 @@ impl Sum {
         }
         weights
     }
-}
-
-/// Two surfaces as those of a pair.
-pub(super) fn contact_pair(sides: [(&Mesh, &[Face]); 2], within: Option<f64>) -> ContactPair {
-    let sides = sides.map(|(mesh, faces)| {
-        let facets: Vec<_> = faces.iter().map(|face| mesh.face_nodes(*face)).collect();
-        PairedSurface {
-            geometry: Geometry::Deformable(Surface::new(&facets)),
-            thickness: Vec::new(),
-            enclosure: None,
-            stiffness: 1.0,
-            texture: None,
-        }
-    });
-    ContactPair {
-        name: String::new(),
-        sides,
-        enforcement: Enforcement::Weighted,
-        search_distance: within,
-        has_faces: false,
-        one_body: false,
-        wear: [0.0; 2],
-    }
-}
-
-/// Reason why surfaces do not meet, if they do not.
-fn unmet(
-    model: &Model,
-    tie: &str,
-    bodies: [usize; 2],
-    configuration: &Configuration,
-    joined: &Joined,
-) -> Result<(), TieFault> {
-    let (tie, [a, b]) = (
-        tie.to_owned(),
-        bodies.map(|body| model.bodies[body].name.clone()),
-    );
-    if let Some(apart) = joined.apart {
-        return Err(TieFault::Apart {
-            tie,
-            a,
-            b,
-            gap: apart.gap,
-            share: apart.share,
-            at: apart.place,
-        });
-    }
-    if joined.is_empty() {
-        let distance = distance(configuration);
-        return Err(TieFault::Nothing {
-            tie,
-            a,
-            b,
-            distance,
-        });
-    }
-    Ok(())
-}
-
-/// Distance of the nearest nodes of both sides.
-fn distance(configuration: &Configuration) -> f64 {
-    let nodes = Side::BOTH.map(|side| &configuration.side(side).x);
-    let distances = nodes[0].iter().map(|x| {
-        let others = nodes[1].iter().map(|y| (x - y).norm());
-        others.fold(f64::INFINITY, f64::min)
-    });
-    distances.fold(f64::INFINITY, f64::min)
 }
