@@ -18,6 +18,8 @@ use crate::{
 /// Gap up to which points count as closed in the first iteration of an increment, over the size
 /// of the facet.
 const TOUCHING: f64 = 1e-9;
+/// Gap, over the same, that is round-off: points up to it count as closed for the next increment.
+const ROUND_OFF: f64 = 1e-12;
 
 /// A segment with its rows and the kept nodes whose basis functions live on it.
 pub struct Patch {
@@ -143,12 +145,12 @@ impl Pressures<'_> {
         let heights = paired.heights(configuration);
         let segment = &paired.segment;
         let heights = std::array::from_fn(|d| heights[d] + offsets[d]);
-        let near = TOUCHING * segment.area.sqrt();
+        let size = segment.area.sqrt();
         let touching = match self.iteration {
-            Iteration::First => near,
+            Iteration::First => TOUCHING * size,
             Iteration::Later { .. } | Iteration::Corrected(_) => 0.0,
         };
-        let pressing = Pressing::new(supports, heights, [touching, near]);
+        let pressing = Pressing::new(supports, heights, [touching, ROUND_OFF * size]);
         let x = &paired.x;
         let facet = Facet {
             corners: [x[0], x[1], x[2], x[3]],

@@ -196,7 +196,7 @@ fn rigid_bodies() {
             r#"{ surface = "floor", free = ["z"] }"#,
         )],
         &[
-            "36:1: step `slide` frees coordinates of rigid body `floor`; only bodies that nodes are tied to, that have a mass or that are a side of a pair can be free",
+            "36:1: step `slide` frees coordinates of rigid body `floor`; only bodies that nodes are tied to, that have a mass, that springs hold or that are a side of a pair can be free",
         ],
     );
     misstated(
