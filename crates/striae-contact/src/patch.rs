@@ -18,8 +18,9 @@ use crate::{
 /// Gap up to which points count as closed in the first iteration of an increment, over the size
 /// of the facet.
 const TOUCHING: f64 = 1e-9;
-/// Gap, over the same, that is round-off: points up to it count as closed for the next increment.
-const ROUND_OFF: f64 = 1e-12;
+/// Gap that is round-off, over the size of the facet and its distance from the origin: points up to
+/// it count as closed for the next increment.
+const ROUND_OFF: f64 = 1e-13;
 
 /// A segment with its rows and the kept nodes whose basis functions live on it.
 pub struct Patch {
@@ -150,7 +151,8 @@ impl Pressures<'_> {
             Iteration::First => TOUCHING * size,
             Iteration::Later { .. } | Iteration::Corrected(_) => 0.0,
         };
-        let pressing = Pressing::new(supports, heights, [touching, ROUND_OFF * size]);
+        let near = ROUND_OFF * (size + paired.x[0].norm());
+        let pressing = Pressing::new(supports, heights, [touching, near]);
         let x = &paired.x;
         let facet = Facet {
             corners: [x[0], x[1], x[2], x[3]],

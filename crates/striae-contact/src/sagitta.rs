@@ -24,9 +24,11 @@ use crate::{
 /// Angle between the normal of a facet and those at its corners from which on its edges are taken
 /// for edges of the body.
 const EDGE: f64 = 0.4;
+/// Largest error over the overlap that is told.
+const ALL: f64 = 1e3;
 
 /// Mean of `|s_A + s_B|` over the mean overlap of the surfaces, where the sides of a pair overlap
-/// by up to `deepest`; infinite if only their facets do.
+/// by up to `deepest`; [`ALL`] at most, if only their facets do.
 pub(crate) fn share(stage: &Stage, deepest: f64) -> f64 {
     let start = stage.configuration;
     let compliances = compliances(start);
@@ -53,7 +55,11 @@ pub(crate) fn share(stage: &Stage, deepest: f64) -> f64 {
             overlap += (beyond - gap).max(0.0);
         }
     }
-    if error > 0.0 { error / overlap } else { 0.0 }
+    if error > 0.0 {
+        error / overlap.max(error / ALL)
+    } else {
+        0.0
+    }
 }
 
 /// Integral of `s` of the facet of a side over its common segment with another one.

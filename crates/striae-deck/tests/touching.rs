@@ -61,7 +61,11 @@ friction = {{ law = "coulomb", mu = 0.3 }}
 fn a_shift_of_the_scene_changes_no_force() {
     let own = forces(Vec3::zeros());
     let largest = own.iter().map(Vec3::norm).fold(0.0, f64::max);
-    for shift in [Vec3::new(0.1, 0.3, 0.7), Vec3::new(-1.3, 2.1, -0.45)] {
+    for shift in [
+        Vec3::new(0.1, 0.3, 0.7),
+        Vec3::new(-1.3, 2.1, -0.45),
+        Vec3::new(130.7, -210.3, 45.1),
+    ] {
         for (own, shifted) in own.iter().zip(forces(shift)) {
             let off = (own - shifted).norm() / largest;
             assert!(off < 1e-7, "{shift}: {off:e}");

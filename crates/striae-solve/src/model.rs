@@ -629,11 +629,18 @@ pub struct NodalForce {
     pub curve: Curve,
 }
 
-impl Step {
-    /// Returns whether forces act on a body or its faces.
-    pub fn loads(&self, body: BodyId) -> bool {
-        self.loads.iter().any(|load| load.body == body)
-            || self.forces.iter().any(|force| force.body == body)
+impl Model {
+    /// Returns whether forces act on a body or its faces in a step, or it has a cavity that some
+    /// step fills.
+    pub fn loads(&self, step: &Step, body: BodyId) -> bool {
+        let mut fillings = self.steps.iter().flat_map(|step| &step.fillings);
+        let filled = |filling: &CavityFilling| {
+            let parts = &self.cavities[filling.cavity.0].parts;
+            parts.iter().any(|(of, _)| *of == body)
+        };
+        step.loads.iter().any(|load| load.body == body)
+            || step.forces.iter().any(|force| force.body == body)
+            || fillings.any(filled)
     }
 }
 

@@ -29,14 +29,12 @@ impl Iteration {
     /// A later iteration with the default `r_t`.
     pub const LATER: Self = Self::Later { slip_weight: 1.0 };
 
-    /// The iteration with a number, counted from 1, after the first one. Cycles of first contact do
-    /// not end with smaller increments, but with another `r_t`, first a smaller and then a larger
-    /// one.
+    /// The iteration with a number, counted from 1, after the first one. First contact has no length
+    /// scale, so that cycles of active sets do not end with smaller increments, but with another
+    /// `r_t`: first a smaller one, then a larger one.
     pub fn later(number: usize) -> Self {
         let slip_weight = match number {
             0..=13 => 1.0,
-            // First contact has no length scale: if active sets cycle, smaller increments do not
-            // help, but another weight does.
             14..=26 => 0.03,
             _ => 10.0,
         };

@@ -57,7 +57,7 @@ fn body_reach(model: &Model, body: BodyId) -> Option<f64> {
     }
     let mut farthest: Option<f64> = None;
     for step in &model.steps {
-        let loaded = step.loads(body);
+        let loaded = model.loads(step, body);
         let actuated = step.actuations.iter().any(|of| of.body == body);
         if loaded || actuated || step.gravity.is_some() || step.procedure != Procedure::QuasiStatic
         {

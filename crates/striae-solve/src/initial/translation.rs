@@ -98,7 +98,7 @@ fn body_way(model: &Model, pair: PairId, body: BodyId) -> Option<Ranges> {
     let mut ranges = [(0.0, 0.0); 3];
     let mut first: [Option<BTreeSet<&str>>; 3] = [None, None, None];
     for (step, start) in model.steps.iter().zip(starts(model)) {
-        if is_moved_otherwise(step, body) {
+        if is_moved_otherwise(model, step, body) {
             return None;
         }
         for axis in 0..3 {
@@ -120,10 +120,10 @@ fn body_way(model: &Model, pair: PairId, body: BodyId) -> Option<Ranges> {
     first.iter().any(Option::is_some).then_some(ranges)
 }
 
-fn is_moved_otherwise(step: &Step, body: BodyId) -> bool {
+fn is_moved_otherwise(model: &Model, step: &Step, body: BodyId) -> bool {
     step.procedure != Procedure::QuasiStatic
         || step.gravity.is_some()
-        || step.loads(body)
+        || model.loads(step, body)
         || step.actuations.iter().any(|of| of.body == body)
         || step.releases.iter().any(|release| release.body == body)
         || step

@@ -48,6 +48,15 @@ fn blocks_that_stick_and_slide() {
 }
 
 #[test]
+fn blocks_that_wear() {
+    let mut model = two_blocks(0.3);
+    model.pairs[0].wear = [2e-2, 1e-2];
+    let told = assert_same(&model);
+    let worn = told.numbers.iter().find(|(name, _)| name == "worn");
+    assert!(worn.unwrap().1.iter().all(|volume| *volume > 0.0));
+}
+
+#[test]
 fn a_body_that_touches_itself() {
     let lower = block([0.0; 3], [1.0, 1.0, 0.5], [4, 4, 2]).mesh().unwrap();
     let upper = block([0.2, 0.2, 0.5], [0.6, 0.6, 0.5], [3, 3, 2])

@@ -139,6 +139,9 @@ fn numbers(problem: &Problem, state: &State) -> Vec<(String, Vec<f64>)> {
         add("statuses", vec![stick as f64, slip as f64, open as f64]);
         add("pressure", vec![pair.max_pressure]);
     }
+    for pair in &state.pairs {
+        add("worn", pair.worn.to_vec());
+    }
     let all_reactions = reactions(problem, state);
     add(
         "reactions",

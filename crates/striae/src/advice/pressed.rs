@@ -99,7 +99,7 @@ fn of_body(model: &Model, body: BodyId, step: &Step, n: &Vec3) -> Option<f64> {
         || rigid
             .flat_map(|rigid| &rigid.ties)
             .any(|(of, _)| *of == body);
-    let loaded = step.gravity.is_some() || step.loads(body);
+    let loaded = step.gravity.is_some() || model.loads(step, body);
     if tied || loaded || step.procedure != Procedure::QuasiStatic {
         return None;
     }

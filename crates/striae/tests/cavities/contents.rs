@@ -170,3 +170,23 @@ fn parts_of_a_tube_have_parts_of_its_volume() {
     let inner = radii.fold(f64::INFINITY, f64::min);
     assert!(((inner / 0.5).powi(2) - 1.4).abs() < 1e-8, "{inner}");
 }
+
+/// Pressure in a cavity moves the body, so that no warning says that it never meets a lid.
+#[test]
+fn a_cavity_presses_its_body_onto_a_lid() {
+    let press = step("press")
+        .increments(4)
+        .hold("cube", "foot")
+        .fill("hole", CavityContent::Pressure(0.2));
+    let top = hollow_cube().facets_where("top", |x| x.z > 2.99);
+    let model = model("Below a lid")
+        .body(top)
+        .cavity(cavity("hole", "cube", "inside"))
+        .rigid(plane("lid", [0.0, 0.0, 3.001], [0.0, 0.0, -1.0]))
+        .pair(pair("stop", surface("cube", "top"), rigid("lid")))
+        .step(press);
+    let run = run(model);
+    assert!(run.results().pair("stop").unwrap().sides[0].force.z < 0.0);
+    let warnings = &run.summary.warnings;
+    assert!(warnings.is_empty(), "{warnings:?}");
+}
