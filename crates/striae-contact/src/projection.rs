@@ -45,6 +45,8 @@ pub enum Ray {
 
 /// Distance outside a facet up to which a hit may lie, in facet coordinates.
 const ROUND_OFF: f64 = 1e-8;
+/// Gauss-Newton steps to a point of a facet: quadratic for points on it.
+const STEPS: usize = 8;
 
 /// Projects the point `x` onto those facets of `target` within the distance `reach` that are
 /// admitted at the gap to them.
@@ -82,6 +84,26 @@ pub fn project(
         }
     }
     best.map(|(_, hit)| hit)
+}
+
+/// Interpolation functions of a facet with the corners `x` at a point on it or near it: those of
+/// the point of the facet, continued beyond its edges, that is nearest.
+pub(crate) fn weights_at(shape: Shape, x: &[Vec3; 4], point: &Vec3) -> [f64; 4] {
+    let [mut xi, mut eta] = shape.centre();
+    for _ in 0..STEPS {
+        let weights = shape.weights(xi, eta);
+        let away = point - combination(&weights.value, x);
+        let along = [&weights.d_xi, &weights.d_eta].map(|weights| combination(weights, x));
+        let [[a, b], [_, d]] = along.map(|u| along.map(|v| u.dot(&v)));
+        let [e, f] = along.map(|u| u.dot(&away));
+        let determinant = a * d - b * b;
+        if determinant <= 0.0 {
+            break;
+        }
+        xi += (d * e - b * f) / determinant;
+        eta += (a * f - b * e) / determinant;
+    }
+    shape.weights(xi, eta).value
 }
 
 /// The point on the edge of a surface that is nearest to the line through `x` along `n`,

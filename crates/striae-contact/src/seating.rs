@@ -19,6 +19,11 @@
 //! their size, the mean gaps of both at the start count instead, as `n_0` knows nothing of the
 //! surface between them. Facets beside the edge of the other side take the value of what they
 //! meet; others keep their gaps, and know no interference.
+//!
+//! Overlaps of meshes that are to be pressed out are those of the curved surfaces, whose gap is
+//! `G = 1/2 (sum N_I^A G_I^A + sum N_J^B G_J^B)` with the gaps of the nodes from the curved surface
+//! of the other side, see [`crate::sagitta`] (`G = sum N_I^A G_I^A` on a rigid side). Contact sees
+//! `g - (g_0 - G)`, so that facets of curved surfaces that conform touch everywhere at once.
 
 use std::sync::Arc;
 
@@ -28,11 +33,15 @@ use striae_surface::{facet::Shape, node::SurfaceNode};
 use crate::{
     configuration::Configuration,
     initial::overlaps,
-    interference::{AHEAD, Stage, Standing, nearest_of},
+    interference::{AHEAD, Stage, Standing, inside, nearest_of},
     pairing::{PairedFacets, SIGNS, Scope, compliances, paired_facets},
+    sagitta,
     segment::{FACING, Facet, SegmentDerivatives, facet_normal, normal_between},
     side::Side,
 };
+
+/// Error of overlaps of facets over those of the curved surfaces from which on the surfaces count.
+const CURVED: f64 = 0.01;
 
 /// Opposition of a facet at the start.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,6 +67,13 @@ pub struct Seating {
     gaps: [Vec<Option<f64>>; 2],
     /// The largest gap or overlap of facets that are seated.
     largest: f64,
+    /// Gaps `G_I` of the nodes of deformable sides from the curved surface of the other side; none
+    /// if faces are taken as touching.
+    surfaces: Option<[Vec<Option<f64>>; 2]>,
+    /// Share of the nodes of a side in `G`.
+    share: f64,
+    /// Largest distance `|g_0 - G|` that facets are corrected by.
+    correction: f64,
 }
 
 /// A seating and how much the faces interfere.
@@ -70,8 +86,28 @@ pub struct Fitted {
 }
 
 impl Seating {
-    /// Seating of the configuration at the start.
+    /// Faces of the configuration at the start that are taken as touching.
     pub fn new(stage: &Stage) -> Self {
+        Self::with(stage, None)
+    }
+
+    /// Faces of the configuration at the start as far apart as their curved surfaces; `None` where
+    /// facets overlap as those do.
+    pub fn of_surfaces(stage: &Stage) -> Option<Self> {
+        let start = stage.configuration;
+        let depths = inside(stage, 0.0).into_iter().map(|found| found.depth);
+        let deepest = depths.fold(0.0, f64::max);
+        if deepest == 0.0 || sagitta::share(stage, deepest) <= CURVED {
+            return None;
+        }
+        let surfaces = Side::BOTH.map(|side| match start.pair.is_deformable(side) {
+            true => sagitta::nodal_gaps(stage, side),
+            false => Vec::new(),
+        });
+        Some(Self::with(stage, Some(surfaces)))
+    }
+
+    fn with(stage: &Stage, surfaces: Option<[Vec<Option<f64>>; 2]>) -> Self {
         let start = stage.configuration;
         let compliances = compliances(start);
         let deepest = overlaps(stage)
@@ -89,13 +125,27 @@ impl Seating {
             let count = side.as_ref().map_or(0, |side| side.surface.facets().len());
             vec![[0.0; 2]; count]
         });
-        let mut largest = 0.0_f64;
+        let share = start.pair.share();
+        let (mut largest, mut correction) = (0.0_f64, 0.0_f64);
         for paired in &paired {
-            let gap = paired.mean_gap(start);
+            let mut gap = paired.mean_gap(start);
             if gap > paired.reach {
                 continue;
             }
             largest = largest.max(gap.abs());
+            if let Some(surfaces) = &surfaces {
+                let Some(between) = between(surfaces, share, paired) else {
+                    continue;
+                };
+                let area = paired.segment.area;
+                let mean = |c: usize| paired.area_of(c) / area * between[c];
+                gap -= (0..8).map(mean).sum::<f64>();
+                let heights = paired.heights(start);
+                for n in paired.segment.at_vertices().into_iter().flatten() {
+                    let at = |c: usize| n[c] * (heights[c] - between[c]);
+                    correction = correction.max((0..8).map(at).sum::<f64>().abs());
+                }
+            }
             for (sums, facet) in sums.iter_mut().zip(paired.facets) {
                 if let Some(facet) = facet {
                     let [area, sum] = &mut sums[facet.index()];
@@ -126,7 +176,25 @@ impl Seating {
             met,
             gaps,
             largest,
+            surfaces,
+            share,
+            correction,
         }
+    }
+
+    /// Overlaps of the curved surfaces at the nodes, by side.
+    pub fn overlaps(&self) -> [Vec<f64>; 2] {
+        let surfaces = self.surfaces.clone().unwrap_or_default();
+        surfaces.map(|side| {
+            let overlap = |gap: Option<f64>| (-gap.unwrap_or(0.0)).max(0.0);
+            side.into_iter().map(overlap).collect()
+        })
+    }
+
+    /// Largest distance by which facets that touch overlap or are apart, as chords of curved
+    /// surfaces; zero if faces are taken as touching.
+    pub fn correction(&self) -> f64 {
+        self.correction
     }
 
     /// Returns whether no facets are seated.
@@ -140,7 +208,7 @@ impl Seating {
         self.largest
     }
 
-    /// `g_0` of two facets in shares of their corners that sum up to the one at a point; `None`
+    /// `g_0`, or `g_0 - G`, of two facets in shares of their corners that sum up to the one at a point; `None`
     /// where they are not seated.
     fn gap_of(&self, paired: &PairedFacets) -> Option<[f64; 8]> {
         let met = |side: Side| {
@@ -153,8 +221,18 @@ impl Seating {
             (Met::Facing(a), Some(Met::Facing(b))) => 0.5 * (a + b),
             _ => return None,
         };
-        let constant = || std::array::from_fn(|d| if d < 4 { mean } else { 0.0 });
-        Some(self.heights(paired).unwrap_or_else(constant))
+        let Some(mut heights) = self.heights(paired) else {
+            return Some(std::array::from_fn(|d| if d < 4 { mean } else { 0.0 }));
+        };
+        if let Some(surfaces) = &self.surfaces {
+            for (height, gap) in heights
+                .iter_mut()
+                .zip(between(surfaces, self.share, paired)?)
+            {
+                *height -= gap;
+            }
+        }
+        Some(heights)
     }
 
     /// Heights of the corners at the start along the normal of two facets, with the sign of their
@@ -208,9 +286,31 @@ impl Fitted {
 
     /// Offset of the gap at a node along its own normal.
     pub(crate) fn at_node(&self, side: Side, node: SurfaceNode) -> f64 {
-        let gap = self.seating.gaps[side].get(node.index()).copied().flatten();
-        gap.map_or(0.0, |gap| -gap - self.interference)
+        let at_node =
+            |gaps: &[Vec<Option<f64>>; 2]| gaps[side].get(node.index()).copied().flatten();
+        let between = self.seating.surfaces.as_ref().map_or(Some(0.0), at_node);
+        match (at_node(&self.seating.gaps), between) {
+            (Some(gap), Some(between)) => between - gap - self.interference,
+            _ => 0.0,
+        }
     }
+}
+
+/// Gaps of curved surfaces in shares of the corners of two facets; `None` where a corner does not
+/// face the other side.
+fn between(
+    surfaces: &[Vec<Option<f64>>; 2],
+    share: f64,
+    paired: &PairedFacets,
+) -> Option<[f64; 8]> {
+    let mut gaps = [0.0; 8];
+    for (c, gap) in gaps.iter_mut().enumerate() {
+        let of_side = &surfaces[paired.sides[c / 4]];
+        if !of_side.is_empty() {
+            *gap = share * of_side[paired.corners[c / 4][c % 4].index()]?;
+        }
+    }
+    Some(gaps)
 }
 
 /// Classification of a facet that faces nothing near it.

@@ -27,7 +27,6 @@
 //! | `tie-moment` | sum of the moments over the same and the root of the tied area | 1e-2 |
 //! | `never-touched` | the smallest distance at the start; after a completed run | - |
 //! | `never-meets` | the same, before the run | - |
-//! | `chords` | error of an overlap that is pressed out, over it, as facets are chords of curved surfaces | 0.1 |
 //!
 //! Longer than other files, as it is the one list of all checks.
 
@@ -116,13 +115,11 @@ pub enum Kind {
     NeverTouched,
     /// A pair can never meet.
     NeverMeets,
-    /// Overlaps that are pressed out depend on which facets face each other.
-    Chords,
 }
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Self; 20] = [
+    pub const ALL: [Self; 19] = [
         Self::Mismatch,
         Self::Moment,
         Self::Tension,
@@ -142,7 +139,6 @@ impl Kind {
         Self::TieMoment,
         Self::NeverTouched,
         Self::NeverMeets,
-        Self::Chords,
     ];
 
     /// Name in files.
@@ -167,7 +163,6 @@ impl Kind {
             Self::TieMoment => "tie-moment",
             Self::NeverTouched => "never-touched",
             Self::NeverMeets => "never-meets",
-            Self::Chords => "chords",
         }
     }
 
@@ -180,7 +175,7 @@ impl Kind {
             Self::Unfelt => UNFELT,
             Self::Gain => LEAST_SHARE,
             Self::Coarse => 1.0,
-            Self::Rotation | Self::Contact | Self::Chords => 0.1,
+            Self::Rotation | Self::Contact => 0.1,
             Self::Imbalance => 1e-3,
             Self::Residual | Self::Passage | Self::NeverTouched | Self::NeverMeets => 0.0,
         }
@@ -455,20 +450,6 @@ impl Judgement {
             .iter()
             .map(|worst| self.relative(worst))
             .collect();
-        for (pair, fit) in fits.iter().enumerate() {
-            if let Some(fit) = fit
-                && model.pairs[pair].initial == Initial::Resolve
-            {
-                worst.push(Worst {
-                    kind: Kind::Chords,
-                    pair: Some(pair),
-                    node: None,
-                    value: fit.chords,
-                    size: 0.0,
-                    time: 0.0,
-                });
-            }
-        }
         if *ending == Ending::Completed {
             for (pair, fit) in fits.iter().enumerate() {
                 let named = warnings
@@ -599,20 +580,6 @@ fn largest(energies: &Energies) -> f64 {
         .fold(0.0, |most: f64, energy| most.max(energy.abs()))
 }
 
-/// Text about overlaps of facets that are chords; `share` is their error over the overlap.
-pub fn chords(pair: &str, share: f64) -> String {
-    let error = match share {
-        0.0..1.0 => format!(
-            "differ from those of the surfaces by {:.0} %",
-            100.0 * share
-        ),
-        _ => "are smaller than the sagitta of the facets".to_owned(),
-    };
-    format!(
-        "pair `{pair}`: facets are chords of curved surfaces, and the overlaps that `initial = \"resolve\"` presses out {error}, and with them the pressure. State the overlap of the surfaces as `interference` instead, or refine the meshes"
-    )
-}
-
 fn warning(problem: &Problem, worst: &Worst) -> Warning {
     let model = &problem.model;
     let &Worst {
@@ -687,7 +654,6 @@ fn warning(problem: &Problem, worst: &Worst) -> Warning {
             1.0 - value.cos()
         ),
         Kind::TieMismatch | Kind::TieMoment => tie_text(worst, name),
-        Kind::Chords => chords(name, value),
         Kind::NeverTouched => format!("pair `{name}` has never touched"),
         Kind::NeverMeets => format!("pair `{name}` can never meet"),
     };

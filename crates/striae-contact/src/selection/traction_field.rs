@@ -164,14 +164,15 @@ impl Selection {
 
     /// Shares of the corners in what is left of an overlap, or in an interference.
     fn fitted_at(&self, configuration: &Configuration, paired: &PairedFacets) -> [f64; 8] {
-        if let Some(fitted) = &self.fitted {
-            return fitted.at_corners(paired);
-        }
+        let fitted = self.fitted.as_ref();
+        let mut offsets = fitted.map_or([0.0; 8], |fitted| fitted.at_corners(paired));
         let share = configuration.pair.share();
-        std::array::from_fn(|corner| {
-            let node = paired.node(configuration, corner);
-            node.map_or(0.0, |(side, node)| share * self.offset(side, node))
-        })
+        for (corner, offset) in offsets.iter_mut().enumerate() {
+            if let Some((side, node)) = paired.node(configuration, corner) {
+                *offset += share * self.offset(side, node);
+            }
+        }
+        offsets
     }
 
     /// Returns whether initial overlaps of the meshes are being removed.
@@ -182,10 +183,7 @@ impl Selection {
     /// Offset of the gap at a node along its own normal.
     pub fn offset_along_normal(&self, side: Side, node: SurfaceNode) -> f64 {
         let fitted = self.fitted.as_ref();
-        fitted.map_or_else(
-            || self.offset(side, node),
-            |fitted| fitted.at_node(side, node),
-        )
+        self.offset(side, node) + fitted.map_or(0.0, |fitted| fitted.at_node(side, node))
     }
 
     /// Part of the initial overlap that remains at a node.

@@ -189,11 +189,12 @@ impl<'a> StepContext<'a> {
         sides.map(|side| side.iter().map(|overlap| (1.0 - s) * overlap).collect())
     }
 
-    /// The faces of a pair that interfere, at the fraction `s` of the step.
+    /// The faces of a pair as they are at the start, at the fraction `s` of the step.
     pub fn fitted(&self, pair: usize, s: f64) -> Option<Fitted> {
-        let stated = self.problem.model.pairs[pair].interference.as_ref()?;
+        let stated = self.problem.model.pairs[pair].interference.as_ref();
         let first = self.problem.plans[0].start;
-        self.offsets[pair].fitted(stated.at(self.index, s, first))
+        let stated = stated.map_or(0.0, |stated| stated.at(self.index, s, first));
+        self.offsets[pair].fitted(stated)
     }
 
     /// Values imposed at the fraction `s` of the step, at `time`, after `state`.

@@ -8,10 +8,9 @@
 //!
 //! with the interpolation functions of both sides at the pair of points; against a rigid
 //! side, `o = sum N_I^A o_I^A`. So the pair starts without pressure, and from the second
-//! step on nothing of this is left.
-//!
-//! An interference is added to the gap as long as the run lasts, see
-//! [`striae_contact::seating`].
+//! step on nothing of this is left. Where facets overlap by more or less than the curved surfaces
+//! whose chords they are, `o` is that of the surfaces, and the difference is added to the gap as
+//! long as the run lasts; so is an interference. See [`striae_contact::seating`].
 //!
 //! Facets are paired up to a distance only, so in the first step contact is searched at least as
 //! deep as the deepest overlap. An overlap of more than half the thickness of the body is refused:
@@ -47,11 +46,11 @@ pub struct Offsets {
 }
 
 impl Offsets {
-    /// Offsets of a pair in a step; none after the first step, and none unless the pair is to
-    /// resolve its overlaps.
+    /// Offsets of a pair in a step; none unless the pair has an interference or is to resolve its
+    /// overlaps, and after the first step none of overlaps that facets have as their surfaces do.
     pub fn new(problem: &Problem, step: usize, pair: usize) -> Self {
         let of_pair = &problem.model.pairs[pair];
-        let resolves = step == 0 && of_pair.initial == Initial::Resolve;
+        let resolves = of_pair.initial == Initial::Resolve;
         if !resolves && of_pair.interference.is_none() {
             return Self::default();
         }
@@ -62,18 +61,24 @@ impl Offsets {
             configuration: &configuration,
             thickness: &thickness,
         };
-        if of_pair.interference.is_some() {
-            let sides = configuration.sides.iter().flatten();
-            let sizes = sides.map(|side| side.largest_size);
-            return Self {
-                seating: Some(Arc::new(Seating::new(&stage))),
-                reach: 0.5 * sizes.fold(0.0, f64::max),
-                ..Self::default()
-            };
-        }
+        let seating = match resolves {
+            true => Seating::of_surfaces(&stage),
+            false => Some(Seating::new(&stage)),
+        };
+        let left = || match &seating {
+            Some(seating) => seating.overlaps(),
+            None => overlaps(&stage),
+        };
+        let sides = match resolves && step == 0 {
+            true => left(),
+            false => Default::default(),
+        };
+        let sizes = configuration.sides.iter().flatten();
+        let largest = sizes.map(|side| side.largest_size).fold(0.0, f64::max);
         Self {
-            sides: overlaps(&stage),
-            ..Self::default()
+            sides,
+            seating: seating.map(Arc::new),
+            reach: 0.5 * largest,
         }
     }
 
@@ -86,15 +91,16 @@ impl Offsets {
     /// Distance in which contact has to be looked for to see all of them, with the start of the
     /// first step.
     pub fn search(&self, interference: Option<&InterferenceFit>, first: Moment) -> f64 {
-        if let (Some(seating), Some(interference)) = (&self.seating, interference) {
-            let beyond = seating.largest() + interference.largest(first);
-            return AHEAD * beyond + self.reach;
-        }
         let all = self.sides.iter().flatten().copied();
-        AHEAD * all.fold(0.0, f64::max)
+        let deepest = all.fold(0.0, f64::max);
+        let Some(seating) = &self.seating else {
+            return AHEAD * deepest;
+        };
+        let stated = interference.map_or(0.0, |interference| interference.largest(first));
+        AHEAD * (seating.largest() + stated) + self.reach
     }
 
-    /// The faces that touch at the start with an interference.
+    /// The faces of the start, with an interference.
     pub fn fitted(&self, interference: f64) -> Option<Fitted> {
         let seating = self.seating.clone()?;
         Some(Fitted {
@@ -105,15 +111,22 @@ impl Offsets {
 }
 
 /// Depth in which faces of a pair are that interfere as they are meant to, after the depth `worn`
-/// has worn off them: with an interference that and the deepest overlap of their meshes besides.
+/// has worn off them: with an interference that and the deepest overlap of their meshes besides,
+/// after overlaps of curved surfaces were pressed out that of their facets.
 pub fn meant_depth(problem: &Problem, pair: usize, worn: f64) -> f64 {
-    let Some(interference) = &problem.model.pairs[pair].interference else {
+    let of_pair = &problem.model.pairs[pair];
+    let resolves = of_pair.initial == Initial::Resolve;
+    if !resolves && of_pair.interference.is_none() {
         return worn;
-    };
+    }
     let start = State::undeformed(problem);
     let stage = Stage {
         configuration: &configuration(problem, pair, Positions::from(&start)),
         thickness: &thickness(problem, pair, &start.positions),
+    };
+    let Some(interference) = &of_pair.interference else {
+        let seating = Seating::of_surfaces(&stage);
+        return worn + seating.map_or(0.0, |seating| seating.correction());
     };
     let drawn = inside(&stage, 0.0).into_iter().map(|found| found.depth);
     drawn.fold(0.0, f64::max) + interference.largest(problem.plans[0].start) + worn
