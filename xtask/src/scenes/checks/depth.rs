@@ -2,7 +2,8 @@
 //!
 //! Between two bodies, each node of a pair's side is sought in the elements of the
 //! other body; its depth is that below the pair's surface of that body, unless another
-//! face is at less than half the distance: no pair speaks of what comes through there.
+//! face is at less than half the distance: this pair says nothing of what comes through there.
+//! The same holds for the corners of rigid surfaces.
 //! Depths are over the larger facets of the two sides, as that is how fine a weighted
 //! gap can see; those over the own ones are told.
 
@@ -170,10 +171,14 @@ fn rigid(
         for (corner, &x) in positions.iter().enumerate() {
             let x = place.point(x);
             let x = [0, 1, 2].map(|i| x[i] + moved[i]);
-            if solid.depth(x).is_none() {
+            let Some(inside) = solid.depth(x) else {
+                continue;
+            };
+            let depth = facing.distance(x);
+            if inside < 0.5 * depth {
+                // It came through another face, of which another pair speaks.
                 continue;
             }
-            let depth = facing.distance(x);
             let size = nearest(grid, x).map_or(f64::NAN, |node| sizes[node]);
             findings.note("depth", depth / (DEPTH * size), || {
                 format!("pair {}, increment {increment}, rigid corner {corner}: {depth:.2e} of {size:.2e}", pair.name)
