@@ -23,7 +23,9 @@
 //! Overlaps of meshes that are to be pressed out are those of the curved surfaces, whose gap is
 //! `G = 1/2 (sum N_I^A G_I^A + sum N_J^B G_J^B)` with the gaps of the nodes from the curved surface
 //! of the other side, see [`crate::sagitta`] (`G = sum N_I^A G_I^A` on a rigid side). Contact sees
-//! `g - (g_0 - G)`, so that facets of curved surfaces that conform touch everywhere at once.
+//! `g - (g_0 - G)`, so that facets touch everywhere at once. That is so only where the surfaces
+//! conform: where `G` changes less over the faces that are seated than the correction `g_0 - G`.
+//! Otherwise the correction would not be that of points that come to face each other later.
 
 use std::sync::Arc;
 
@@ -92,7 +94,7 @@ impl Seating {
     }
 
     /// Faces of the configuration at the start as far apart as their curved surfaces; `None` where
-    /// facets overlap as those do.
+    /// facets overlap as those do, or the surfaces do not conform.
     pub fn of_surfaces(stage: &Stage) -> Option<Self> {
         let start = stage.configuration;
         let depths = inside(stage, 0.0).into_iter().map(|found| found.depth);
@@ -104,7 +106,31 @@ impl Seating {
             true => sagitta::nodal_gaps(stage, side),
             false => Vec::new(),
         });
-        Some(Self::with(stage, Some(surfaces)))
+        let seating = Self::with(stage, Some(surfaces));
+        (seating.spread(start) < seating.correction).then_some(seating)
+    }
+
+    /// Difference of the largest and the smallest gap of the curved surfaces at nodes of seated
+    /// facets.
+    fn spread(&self, start: &Configuration) -> f64 {
+        let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+        for side in Side::BOTH {
+            let Some(gaps) = self.surfaces.as_ref().map(|gaps| &gaps[side]) else {
+                continue;
+            };
+            if gaps.is_empty() {
+                continue;
+            }
+            let facets = start.side(side).surface.facets();
+            for (corners, met) in facets.iter().zip(&self.met[side]) {
+                if matches!(met, Met::Facing(_)) {
+                    for gap in corners.iter().filter_map(|&node| gaps[node.index()]) {
+                        (least, most) = (least.min(gap), most.max(gap));
+                    }
+                }
+            }
+        }
+        most - least
     }
 
     fn with(stage: &Stage, surfaces: Option<[Vec<Option<f64>>; 2]>) -> Self {

@@ -105,6 +105,13 @@ pub fn fault(model: &Model, pair: PairId, fit: &Fit) -> Option<InitialFault> {
     })
 }
 
+/// Returns whether overlaps of a pair that are pressed out are those of curved surfaces that
+/// conform, not those of the facets that are their chords.
+pub fn conforms(model: &Model, pair: PairId) -> bool {
+    let reference = Reference::new(model, pair);
+    reference.is_some_and(|reference| reference.at(model, Seating::of_surfaces).is_some())
+}
+
 /// The fault that no faces of a pair with an interference are near enough to touch.
 fn unseated(model: &Model, pair: PairId, fit: &Fit) -> Option<InitialFault> {
     let seating = Reference::new(model, pair)?.at(model, Seating::new);
