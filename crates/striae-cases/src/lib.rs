@@ -30,6 +30,8 @@ mod crushed_ring;
 mod edge_contact;
 mod edge_release;
 mod failure;
+mod fault_slider;
+mod finger_gripper;
 mod finger_pad;
 mod hertz_mindlin;
 mod hertz_mindlin_cylinders;
@@ -50,6 +52,7 @@ mod stick_tolerance;
 mod stiff_punch;
 mod strip_draw;
 pub mod study;
+mod tread_slide;
 mod treloar;
 mod two_blocks;
 mod tyre;
@@ -125,6 +128,22 @@ pub const CASES: &[Case] = &[
         "crawler",
         "A worm that crawls by its own strain against its nap, beside a stiff bar",
         crawler::run
+    ),
+    case!(
+        "fault-slider",
+        "A fault block that sticks and slips by rate and state, beside differential equations",
+        fault_slider::run
+    ),
+    case!(
+        "finger-gripper",
+        "Three fingers that are blown up and hold a ball, and one beside the closed form",
+        finger_gripper::run
+    ),
+    case!(
+        "tread-slide",
+        "A tread block that slides at five speeds, with friction by pressure and speed",
+        tread_slide::run,
+        quick: "without the mesh of elements of half the size"
     ),
     case!(
         "stiff-punch",

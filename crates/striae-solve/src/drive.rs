@@ -493,11 +493,31 @@ fn count(nodes: &[Vec<NodeResult>; 2], status: Status) -> usize {
 /// End of an increment of about the given size; the last one takes what is left.
 fn target(done: f64, size: f64) -> f64 {
     let end = done + size;
-    if end > 1.0 - 1e-9 {
+    // What the rounding below adds up to in thousands of increments is no increment of its own.
+    if end > 1.0 - f64::max(1e-9, 1e-3 * size) {
         1.0
     } else {
         // Increments of a whole number a step end at the same fractions whatever the sum's round-off.
         let rounded = (end * 1e12).round() / 1e12;
         rounded.max(done + 0.5 * size)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_increments_are_as_many_as_stated() {
+        for count in [1, 3, 7, 1000, 12_000, 30_000] {
+            let size = 1.0 / f64::from(count);
+            let mut done = 0.0;
+            let mut made = 0;
+            while done < 1.0 {
+                done = target(done, size);
+                made += 1;
+            }
+            assert_eq!(made, count);
+        }
     }
 }

@@ -15,7 +15,7 @@ pub struct Exhibit {
 }
 
 /// All cases.
-pub const EXHIBITS: [Exhibit; 32] = [
+pub const EXHIBITS: [Exhibit; 35] = [
     Exhibit {
         case: "two-blocks",
         run: Some("deck"),
@@ -64,6 +64,34 @@ pub const EXHIBITS: [Exhibit; 32] = [
         options: &["--field", "displacement"],
         figure: Some("way"),
         caption: "A worm that shortens and lengthens of itself crawls with the nap of its belly; with the nap the other way round it crawls back, and without it stays.",
+    },
+    Exhibit {
+        case: "fault-slider",
+        run: None,
+        options: &[],
+        figure: Some("friction"),
+        caption: "A block of rock under friction by rate and state, dragged by a spring: it sticks and slips on a soft one and creeps on a stiff one, as the differential equations of a slider do.",
+    },
+    Exhibit {
+        case: "finger-gripper",
+        run: Some("gripper"),
+        options: &["--field", "displacement", "--view", "0.4,1,-0.3"],
+        figure: Some("forces"),
+        caption: "Three fingers that are blown up and hold a ball, here with its weight to the side.",
+    },
+    Exhibit {
+        case: "tread-slide",
+        run: Some("patch-10-0.4"),
+        options: &[
+            "--field",
+            "pressure",
+            "--view",
+            "-0.5,1,0.6",
+            "--hide",
+            "road",
+        ],
+        figure: Some("stribeck"),
+        caption: "A tread block at 10 m/s, from below, and its friction over the load at five speeds beside the integral of the law over the pressure.",
     },
     Exhibit {
         case: "stiff-punch",

@@ -5,4 +5,5 @@
 mod scene;
 
 mod blocks;
+mod passes;
 mod sphere;

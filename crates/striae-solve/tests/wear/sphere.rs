@@ -17,8 +17,8 @@ const WEAR: f64 = 1000.0;
 /// Half of a block with a spherical lower face, lowered as it slides along the plane, then slid on.
 fn sphere(element_size: f64) -> Run {
     let mesh = CappedBlock {
-        size: [12.0; 2],
-        height: 3.0,
+        size: [9.5; 2],
+        height: 1.5,
         radius: RADIUS,
         element_size,
         fine_half_width: 4.0,
@@ -37,7 +37,7 @@ fn sphere(element_size: f64) -> Run {
         model.hold("block", "ymin", [None, Some(0.0), None]),
         model.hold("block", "zmax", [Some(0.5), Some(0.0), Some(-LOWERED)]),
     ];
-    lower.increments = increments(0.05, 1e-4);
+    lower.increments = increments(0.025, 1e-4);
     slide.displacements = vec![model.hold("block", "zmax", [Some(1.0), None, None])];
     slide.increments = increments(0.5, 1e-3);
     model.steps = vec![lower, slide];
@@ -45,8 +45,13 @@ fn sphere(element_size: f64) -> Run {
 }
 
 /// The volume `pi R d^2 = pi a^4/(4 R)` of the cap, and its depth `d - r^2/(2 R)` within the radius
-/// `a = sqrt(2 R d)` of the scar. The ring of facets at its edge, in which supports are open in part,
-/// limits what a mesh gives.
+/// `a = sqrt(2 R d)` of the scar.
+///
+/// Errors of two kinds remain. The edge of the scar moves outwards by whole increments, in which
+/// all of what it reaches wears at the pressure of their end: the volume is too large by 3.0 % in 20
+/// increments, 1.5 % in 40 and 0.4 % in 80 on a block of twice the height, of first order. And
+/// facets are chords: those of the size `h` lie inside the sphere by `h^2/(6 R)` in the mean, which
+/// takes away 1.0 % of the cap.
 #[test]
 fn a_sphere_loses_its_cap() {
     let size = 0.5;
@@ -54,7 +59,7 @@ fn a_sphere_loses_its_cap() {
     assert_eq!(run.ending, Ending::Completed);
     let cap = PI * RADIUS * LOWERED * LOWERED;
     let error = 2.0 * run.last().pairs[0].worn[0] / cap - 1.0;
-    assert!(error.abs() < 0.05, "{error:.4}");
+    assert!(error.abs() < 0.02, "{error:.4}");
     let radius = (2.0 * RADIUS * LOWERED).sqrt();
     let surface = run.problem.pairs[0].contact.sides[Side::A]
         .surface()
