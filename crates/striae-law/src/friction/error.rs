@@ -52,6 +52,20 @@ pub enum FrictionError {
         /// Dissipation over `varpi |du|`, zero or negative.
         dissipation: f64,
     },
+    /// A factor of one's own is not sound.
+    #[error(transparent)]
+    Factor(#[from] super::FactorFailure),
+    /// A factor of one's own and the law need textures of different surfaces.
+    #[error(
+        "factor `{factor}` and law `{law}` need textures of different surfaces, one of them of both \
+         and the other of one alone"
+    )]
+    FactorTextures {
+        /// Name of the factor.
+        factor: String,
+        /// Name of the law.
+        law: String,
+    },
     /// The forces of a law from outside do not surround the origin.
     #[error(
         "law `{law}` has no slip surface at {theta:.3} degrees between the textures: `L` must be \

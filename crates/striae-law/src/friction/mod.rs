@@ -24,6 +24,8 @@ mod coulomb;
 mod creep;
 mod ellipse;
 mod error;
+mod factor;
+mod healing;
 mod kernel;
 mod monotone;
 mod nap;
@@ -52,6 +54,11 @@ pub use coefficient::Coefficient;
 pub use creep::{Creep, Past};
 pub use ellipse::Ellipse;
 pub use error::FrictionError;
+pub use factor::{
+    Factor, FactorBatch, FactorFailure, FactorLane, FactorLaw, FactorPoint, FactorPoints,
+    FactorRange, LARGEST_STATE, OwnFactor,
+};
+pub use healing::{Healing, HealingCourse};
 pub use kernel::{Kernel, Textures};
 pub use nap::Nap;
 pub use oblique::Oblique;
@@ -136,6 +143,15 @@ impl Law {
             Self::Own(own) => own.law().name(),
         }
     }
+
+    fn required_textures(&self) -> RequiredTextures {
+        match self {
+            Self::Frictionless | Self::Coulomb => RequiredTextures::Any,
+            Self::Orthotropic(_) | Self::Nap(_) | Self::Tabulated(_) => RequiredTextures::One,
+            Self::TwoTextures(_) => RequiredTextures::Both,
+            Self::Own(own) => own.law().required_textures(),
+        }
+    }
 }
 
 /// Surfaces, of the two, that must carry a texture.
@@ -209,6 +225,46 @@ impl Friction {
         }
     }
 
+    /// Lets all coefficients have a factor of one's own, in place of a dependence on slip rate and
+    /// state; see [`FactorLaw`].
+    ///
+    /// # Errors
+    /// When the factor needs textures of other surfaces than the law.
+    pub fn with_factor(self, factor: OwnFactor) -> Result<Self, FrictionError> {
+        let [law, of_factor] = [
+            self.law.required_textures(),
+            factor.law().required_textures(),
+        ];
+        let any = RequiredTextures::Any;
+        if law != of_factor && law != any && of_factor != any {
+            return Err(FrictionError::FactorTextures {
+                factor: factor.law().name().to_owned(),
+                law: self.law.name().to_owned(),
+            });
+        }
+        let coefficient = self.coefficient.with_factor(factor);
+        Ok(Self {
+            coefficient,
+            ..self
+        })
+    }
+
+    /// Factors of the coefficients at points, by healing or of one's own, if there is one.
+    ///
+    /// # Errors
+    /// When it is negative or not finite, or a law has failed.
+    pub fn factors(&self, points: &FactorPoints) -> Result<Option<Vec<Factor>>, FactorFailure> {
+        let law = self.factor();
+        law.map(|law| factor::sound_factors(law, points))
+            .transpose()
+    }
+
+    /// Factor by healing or of one's own, if there is one.
+    pub fn factor(&self) -> Option<&dyn FactorBatch> {
+        let law = self.coefficient.factor();
+        law.filter(|_| !self.is_frictionless())
+    }
+
     /// Lets all coefficients decay exponentially with the slip rate, from the stated values
     /// at rest to `kinetic_over_static` times them; see [`Decay`].
     ///
@@ -253,15 +309,24 @@ impl Friction {
 
     /// Returns whether `varpi` depends on the slip rate.
     pub fn depends_on_rate(&self) -> bool {
-        self.coefficient.by_rate().is_some()
+        let course = self.coefficient.course();
+        self.coefficient.by_rate().is_some() || course.is_some_and(|course| course.goes_with_rate)
     }
 
     /// Returns whether `varpi` falls with the slip rate anywhere.
     pub fn weakens(&self) -> bool {
-        self.weakest_rate().is_some()
+        let course = self.coefficient.course();
+        self.weakest_rate().is_some() || course.is_some_and(|course| course.falls)
     }
 
-    /// The slip rate at which `varpi` has fallen most, if it falls anywhere.
+    /// Largest `varpi` over that at rest.
+    pub fn largest_over_rest(&self) -> f64 {
+        let course = self.coefficient.course();
+        let of_factor = course.map_or(1.0, |course| course.largest_over_rest);
+        self.coefficient.by_rate().largest_over_rest() * of_factor
+    }
+
+    /// The slip rate at which `R` has fallen most, if it falls anywhere.
     pub fn weakest_rate(&self) -> Option<f64> {
         self.coefficient.by_rate().weakest_rate()
     }
@@ -273,11 +338,9 @@ impl Friction {
 
     /// Surfaces that must carry a texture for [`Friction::kernel`] to exist.
     pub fn required_textures(&self) -> RequiredTextures {
-        match &self.law {
-            Law::Frictionless | Law::Coulomb => RequiredTextures::Any,
-            Law::Orthotropic(_) | Law::Nap(_) | Law::Tabulated(_) => RequiredTextures::One,
-            Law::TwoTextures(_) => RequiredTextures::Both,
-            Law::Own(own) => own.law().required_textures(),
+        match (self.law.required_textures(), self.coefficient.own()) {
+            (RequiredTextures::Any, Some(factor)) => factor.law().required_textures(),
+            (textures, _) => textures,
         }
     }
 
@@ -303,6 +366,24 @@ impl Friction {
             return D::zero();
         }
         self.capped(self.coefficient.bound(pressure, slip_rate, slip))
+    }
+
+    /// The bound with a factor `F` at this pressure and slip rate:
+    /// `varpi = mu R(v) W(s) P(p) F`.
+    pub fn cap_with<D: DualNum<Primitive = f64> + Copy>(
+        &self,
+        slip: f64,
+        pressure: D,
+        slip_rate: D,
+        factor: D,
+    ) -> D {
+        if pressure.re() <= 0.0 {
+            return D::zero();
+        }
+        let bound = self
+            .coefficient
+            .bound_with(pressure, slip_rate, slip, factor);
+        self.capped(bound)
     }
 
     /// `varpi` up to the shear cap.
