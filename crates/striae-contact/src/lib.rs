@@ -54,6 +54,7 @@ pub mod directions;
 pub mod evaluation;
 pub mod exposed;
 pub mod facet_coverage;
+pub mod factors;
 pub mod field;
 pub mod frame;
 pub mod initial;

@@ -31,7 +31,7 @@ mod points;
 use std::{fmt, sync::Arc};
 
 use nalgebra::Vector3;
-use num_dual::{DualNum, DualSVec64};
+use num_dual::DualSVec64;
 use serde::{Serialize, Serializer};
 
 use super::{FrictionError, RequiredTextures, Textures};
@@ -108,7 +108,7 @@ impl Default for FactorRange {
 ///
 /// ```
 /// use striae_law::friction::{
-///     FactorLane, FactorLaw, FactorPoint, FactorRange, Friction, OwnFactor, battery,
+///     DualNum, FactorLane, FactorLaw, FactorPoint, FactorRange, Friction, OwnFactor, battery,
 /// };
 ///
 /// /// Friction that falls to a half as a film of the thickness `theta` builds up with slip.
@@ -227,12 +227,6 @@ impl Factor {
             by_slip_rate: slopes[1],
             by_surroundings: std::array::from_fn(|at| slopes[2 + at]),
         }
-    }
-
-    /// The factor over variables of pressure and slip rate.
-    pub(super) fn at<D: DualNum<Primitive = f64> + Copy>(&self, pressure: D, rate: D) -> D {
-        let [dp, dv] = [pressure, rate].map(|x| x - x.re());
-        dp * self.by_pressure + dv * self.by_slip_rate + self.value
     }
 
     fn is_sound(&self) -> bool {

@@ -61,6 +61,7 @@ pub use factor::{
 pub use healing::{Healing, HealingCourse};
 pub use kernel::{Kernel, Textures};
 pub use nap::Nap;
+pub use num_dual::DualNum;
 pub use oblique::Oblique;
 pub use orthotropic::Orthotropic;
 pub use own::{FrictionLaw, Lane, Own};
@@ -75,7 +76,6 @@ pub use two_textures::{LeastDissipation, TwoTextures};
 use crate::declared::{Declared, Kind, Statement};
 use error::positive;
 use nalgebra::Vector3;
-use num_dual::DualNum;
 
 /// The laws that decks, the program and the Python package know by name.
 pub static LAWS: &[&Declared<Friction>] = &[

@@ -6,7 +6,7 @@ use striae_verify::assert_directional;
 use super::laws_of_all_kinds;
 use crate::friction::{
     Creep, Evolution, Friction, FrictionError, Past, PressureDependence, RateAndState,
-    SlipDependence, SlipRule, StateDependence, battery,
+    SlipDependence, StateDependence, battery,
 };
 
 const MU: f64 = 0.6;
