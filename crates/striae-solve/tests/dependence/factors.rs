@@ -185,7 +185,7 @@ fn any_number_of_threads_gives_the_same_bits() {
         let pool = ThreadPoolBuilder::new().num_threads(threads).build();
         let friction = of(|at, state| {
             let rate = (-at.slip_rate * 4.0).exp() * 0.4 + 0.6;
-            rate * ((-state[0]).exp() + at.position.y.sin())
+            rate * ((-state[0]).exp() + at.position.y.sin() + 1.0)
         });
         pool.unwrap()
             .install(|| Run::of(uniform(PRESSURE, SPEED, friction)))
