@@ -6,6 +6,7 @@
 //! rest and in fast slip, too, which the rows of nodes need that turn around or begin to slip.
 
 use serde::{Deserialize, Serialize};
+pub use striae_law::friction::LARGEST_STATE;
 use striae_law::friction::{Factor, FactorFailure, FactorPoints, Friction};
 use striae_mesh::Vec3;
 
@@ -41,6 +42,14 @@ pub struct FactorStates {
     pub count: usize,
     /// States of the nodes, one after the other, by side.
     pub values: [Vec<f64>; 2],
+}
+
+impl FactorStates {
+    /// A number of the states of all nodes of a side.
+    pub fn of(&self, side: Side, at: usize) -> Vec<f64> {
+        let values = self.values[side].iter();
+        values.skip(at).step_by(self.count).copied().collect()
+    }
 }
 
 /// Conditions under which states evolve.

@@ -28,7 +28,7 @@
 mod judge;
 mod points;
 
-use std::{fmt, sync::Arc};
+use std::{any::Any, fmt, sync::Arc};
 
 use nalgebra::Vector3;
 use num_dual::DualSVec64;
@@ -195,6 +195,11 @@ pub trait FactorBatch: fmt::Debug + Send + Sync {
     /// # Errors
     /// When the law has failed.
     fn states_after(&self, points: &FactorPoints) -> Result<Vec<f64>, FactorFailure>;
+
+    /// The law itself, where it is to be found again in models.
+    fn as_any(&self) -> Option<&dyn Any> {
+        None
+    }
 
     /// Slip rate in increments of a duration at which friction is taken to have fallen most.
     fn fast(&self, _elapsed: f64) -> f64 {

@@ -5,7 +5,7 @@ use num_dual::Dual64;
 use super::laws_of_all_kinds;
 use crate::friction::{
     Decay, Friction, FrictionError, Logarithm, PressureDependence, RateDependence, SlipDependence,
-    SlipRule, battery,
+    battery,
 };
 
 fn decay(kinetic_over_static: f64, slip_rate: f64, exponent: f64, viscous: f64) -> RateDependence {
