@@ -24,9 +24,6 @@ pub(super) fn friction_keys(friction: &Friction) -> Option<String> {
         text += &format!(", shear_cap = {}", number(cap));
     }
     let coefficient = friction.coefficient();
-    if coefficient.own().is_some() {
-        return None;
-    }
     let dependence = |key: &str, statement: Option<&Statement>| match statement {
         Some(Statement { law, values }) => {
             format!(", {key} = {{ form = \"{law}\"{} }}", stated_values(values))

@@ -242,9 +242,10 @@ impl Friction {
                 law: self.law.name().to_owned(),
             });
         }
-        let coefficient = self.coefficient.with_factor(factor);
         Ok(Self {
-            coefficient,
+            coefficient: self.coefficient.with_factor(factor),
+            // It does not tell the factor.
+            statement: None,
             ..self
         })
     }
