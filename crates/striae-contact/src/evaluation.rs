@@ -2,6 +2,8 @@
 //!
 //! A pure function of two configurations, the last converged one and the present one, of
 //! the roles and of the traction unknowns.
+//!
+//! Longer than other files, as it is the one place where all that a pair contributes is joined.
 
 use rayon::prelude::*;
 use striae_law::friction::FactorFailure;

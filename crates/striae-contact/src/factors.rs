@@ -5,13 +5,12 @@
 //! position at the start of the increment. Where it goes with the slip rate it is asked for at
 //! rest and in fast slip, too, which the rows of nodes need that turn around or begin to slip.
 
-use serde::{Deserialize, Serialize};
-pub use striae_law::friction::LARGEST_STATE;
 use striae_law::friction::{Factor, FactorFailure, FactorPoints, Friction};
 use striae_mesh::Vec3;
 
 use crate::{
     configuration::Configuration,
+    factor_states::FactorStates,
     frame::Frames,
     kinematics::Kinematics,
     selection::Selection,
@@ -31,25 +30,6 @@ pub struct NodeFactor {
     pub at_rest: Factor,
     /// In fast slip.
     pub fast: Factor,
-}
-
-/// States of a factor at the surface nodes of a pair.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct FactorStates {
-    /// Name of the law.
-    pub law: String,
-    /// Numbers a node.
-    pub count: usize,
-    /// States of the nodes, one after the other, by side.
-    pub values: [Vec<f64>; 2],
-}
-
-impl FactorStates {
-    /// A number of the states of all nodes of a side.
-    pub fn of(&self, side: Side, at: usize) -> Vec<f64> {
-        let values = self.values[side].iter();
-        values.skip(at).step_by(self.count).copied().collect()
-    }
 }
 
 /// Conditions under which states evolve.

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use striae_law::friction::{Friction, RateAndState};
 use striae_mesh::Vec3;
 
-use crate::factors::FactorStates;
+use crate::factor_states::FactorStates;
 
 /// Traction unknowns of a pair; the same shape whatever the roles.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

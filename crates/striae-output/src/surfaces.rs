@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use striae_contact::{
-    factors::{FactorStates, LARGEST_STATE},
+    factor_states::{FactorStates, LARGEST_STATE},
     side::Side,
     unknowns::{NodeResult, Status as ContactStatus},
 };

@@ -1,4 +1,6 @@
 //! Output by choice: fields, bodies, intervals, probes, what slip has done, resultants.
+//!
+//! Longer than other files, as all of them look at one deck.
 
 use std::path::Path;
 

@@ -4,7 +4,9 @@
 //! slip dissipates, the response rotates with its arguments, is independent of the side it is seen
 //! from and tangential to both surfaces, `K^-1` is the inverse of `K`, and derivatives are exact,
 //! judged by the order at which finite-difference errors decrease. Factors by healing and of one's
-//! own are judged in `factor/judge.rs`.
+//! own are judged in `battery/factors.rs`.
+
+mod factors;
 
 use nalgebra::{DMatrix, DVector, Matrix3, SVector, Vector2, Vector3};
 use num_dual::{DualNum, jacobian};
@@ -122,7 +124,7 @@ pub fn battery(friction: &Friction) -> Vec<Violation> {
         violations.extend(has_exact_derivatives(friction, &place, &mut random).err());
     }
     if let Some(law) = friction.factor() {
-        violations.extend(super::factor::violations(law, friction.required_textures()));
+        violations.extend(factors::violations(law, friction.required_textures()));
     }
     let mut kinds = Vec::new();
     violations.retain(|violation| {

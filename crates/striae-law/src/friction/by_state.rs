@@ -1,6 +1,6 @@
 //! Coefficients of friction that depend on the slip rate and on a state of the surface.
 //!
-//! Those of static and kinetic friction with healing are in [`healing`](super::healing). The
+//! Static and kinetic friction with healing is in `by_state/healing.rs`. The
 //! friction of Dieterich and Ruina: with the slip rate `v`, a state `theta` in units of time,
 //! and the stated coefficient `mu`, that of steady slip at the rate `v_0`,
 //!
@@ -45,13 +45,16 @@
 //! Rice, Lapusta & Ranjith (2001), "Rate and state dependent friction and the stability of sliding
 //! between elastically deformable solids", J. Mech. Phys. Solids 49, 1865-1898.
 
+mod healing;
+
 use std::{convert::Infallible, fmt};
 
 use num_dual::DualNum;
 use serde::Serialize;
 
 use super::error::{FrictionError, not_negative, positive};
-use super::healing::{self, Healing};
+pub use healing::{Healing, HealingCourse};
+
 use crate::declared::{
     Absent, Declared, Kind, NO_UNIT, NOT_NEGATIVE, POSITIVE, Parameter, Statement, Values,
 };

@@ -2,6 +2,16 @@
 
 use thiserror::Error;
 
+/// Reason why a law has no factor.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[error("factor of friction `{law}`: {cause}")]
+pub struct FactorFailure {
+    /// Name of the law.
+    pub law: String,
+    /// Cause, in words.
+    pub cause: String,
+}
+
 /// A friction law whose constants are refused.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum FrictionError {
@@ -54,7 +64,7 @@ pub enum FrictionError {
     },
     /// A factor of one's own is not sound.
     #[error(transparent)]
-    Factor(#[from] super::FactorFailure),
+    Factor(#[from] FactorFailure),
     /// A factor of one's own and the law need textures of different surfaces.
     #[error(
         "factor `{factor}` and law `{law}` need textures of different surfaces, one of them of both \

@@ -25,8 +25,8 @@
 //! seen from both surfaces. [`OwnFactor::new`] refuses negative factors, and
 //! [`battery`](super::battery()) judges the rest.
 
-mod judge;
 mod points;
+pub(super) mod samples;
 
 use std::{any::Any, fmt, sync::Arc};
 
@@ -34,9 +34,10 @@ use nalgebra::Vector3;
 use num_dual::DualSVec64;
 use serde::{Serialize, Serializer};
 
-use super::{FrictionError, RequiredTextures, Textures};
+use super::RequiredTextures;
+use super::error::{FactorFailure, FrictionError};
+use super::textures::Textures;
 
-pub(super) use judge::violations;
 pub use points::FactorPoints;
 
 /// First-order dual numbers over pressure, slip rate, normal and the textures of both surfaces.
@@ -241,16 +242,6 @@ impl Factor {
     }
 }
 
-/// Reason why a law has no factor.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("factor of friction `{law}`: {cause}")]
-pub struct FactorFailure {
-    /// Name of the law.
-    pub law: String,
-    /// Cause, in words.
-    pub cause: String,
-}
-
 /// A shared factor of one's own; equal to itself only.
 #[derive(Clone, Debug)]
 pub struct OwnFactor {
@@ -300,7 +291,7 @@ impl OwnFactor {
     /// When a factor is negative or not finite within the range of the law, the law fails, or it
     /// has too many state variables.
     pub fn new(law: impl FactorBatch + 'static) -> Result<Self, FrictionError> {
-        let course = judge::course(&law)?;
+        let course = samples::course(&law)?;
         let law = Arc::new(law);
         Ok(Self { law, course })
     }

@@ -8,6 +8,8 @@
 //! dual numbers, so their derivatives are exact. Where coefficients depend on rate and state,
 //! [`Friction::creep`] takes the place of the radius.
 //!
+//! Longer than other files, as it joins all dependences and laws in one type.
+//!
 //! Conventions: `p >= 0` is compressive; slip is the motion of the surface that
 //! carries the point relative to the other one; the traction acts on the
 //! surface that carries the point.
@@ -25,7 +27,6 @@ mod creep;
 mod ellipse;
 mod error;
 mod factor;
-mod healing;
 mod kernel;
 mod monotone;
 mod nap;
@@ -38,6 +39,7 @@ mod slip_sample;
 mod slip_surface;
 mod star;
 mod tabulated;
+mod textures;
 mod two_textures;
 
 #[cfg(test)]
@@ -49,17 +51,16 @@ pub use battery::{Violation, battery};
 pub use by_pressure::{BY_PRESSURE, FLOOR_OF_ADHESION, FLOOR_OF_POWER_LAW, PressureDependence};
 pub use by_rate::{BY_RATE, DECAY, Decay, Logarithm, RateDependence};
 pub use by_slip::{BY_SLIP, SlipDependence};
-pub use by_state::{BY_STATE, Evolution, RateAndState, StateDependence};
+pub use by_state::{BY_STATE, Evolution, Healing, HealingCourse, RateAndState, StateDependence};
 pub use coefficient::Coefficient;
 pub use creep::{Creep, Past};
 pub use ellipse::Ellipse;
-pub use error::FrictionError;
+pub use error::{FactorFailure, FrictionError};
 pub use factor::{
-    Factor, FactorBatch, FactorFailure, FactorLane, FactorLaw, FactorPoint, FactorPoints,
-    FactorRange, LARGEST_STATE, OwnFactor,
+    Factor, FactorBatch, FactorLane, FactorLaw, FactorPoint, FactorPoints, FactorRange,
+    LARGEST_STATE, OwnFactor,
 };
-pub use healing::{Healing, HealingCourse};
-pub use kernel::{Kernel, Textures};
+pub use kernel::Kernel;
 pub use nap::Nap;
 pub use num_dual::DualNum;
 pub use oblique::Oblique;
@@ -71,6 +72,7 @@ pub use slip_sample::{Extremes, SlipRule, SlipSample};
 pub use slip_surface::SlipSurface;
 pub use star::Star;
 pub use tabulated::{Radial, Tabulated};
+pub use textures::Textures;
 pub use two_textures::{LeastDissipation, TwoTextures};
 
 use crate::declared::{Declared, Kind, Statement};

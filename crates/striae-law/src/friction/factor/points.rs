@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::{FactorLane, FactorPoint};
-use crate::friction::kernel::Textures;
+use crate::friction::textures::Textures;
 
 /// Points at the end of an increment; lists have one entry a point.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -91,7 +91,7 @@ impl FactorPoints {
     }
 
     /// A point in words.
-    pub(super) fn told(&self, at: usize) -> String {
+    pub(in crate::friction) fn told(&self, at: usize) -> String {
         let x = &self.position[at];
         let state = match self.state(at) {
             [] => String::new(),

@@ -47,16 +47,15 @@ use std::fmt;
 use num_dual::DualNum;
 use serde::Serialize;
 
-use super::error::{FrictionError, not_negative, positive, within};
-use super::factor::{
-    Course, Factor, FactorBatch, FactorFailure, FactorLane, FactorLaw, FactorPoint, FactorPoints,
-    FactorRange, PointWise,
-};
+use super::StateDependence;
 use crate::declared::{
     Absent, Bound, Declared, NO_UNIT, NOT_NEGATIVE, POSITIVE, Parameter, Values,
 };
-
-use super::by_state::StateDependence;
+use crate::friction::error::{FactorFailure, FrictionError, not_negative, positive, within};
+use crate::friction::factor::{
+    Course, Factor, FactorBatch, FactorLane, FactorLaw, FactorPoint, FactorPoints, FactorRange,
+    PointWise,
+};
 
 /// Constants of friction that heals.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -258,7 +257,7 @@ impl Healing {
     }
 
     /// Course with the slip rate.
-    pub(super) fn by_rate(&self) -> Course {
+    pub(in crate::friction) fn by_rate(&self) -> Course {
         let falls = self.largest_weakening() > 0.0;
         Course {
             goes_with_rate: falls,
