@@ -101,6 +101,8 @@ class Functions:
         self.size = size
         #: Largest pressure and slip rate.
         self.scales = scales
+        #: Whether they state derivatives, as far as is known.
+        self.stated = True
 
     def states(self, **given: Any) -> Floats:
         """States at the end of an increment."""
@@ -149,7 +151,7 @@ class Functions:
         """Answer by stated derivatives, and by differences where there are none."""
         count = len(at.pressure)
         textured = bool(np.any(at.texture) or np.any(at.opposite_texture))
-        if not textured:
+        if self.stated and not textured:
             state, of_state = self._states(at)
             value, of_factor = self._value(at._replace(state=state))
             if of_state is not None and of_factor is not None:
@@ -160,6 +162,8 @@ class Functions:
                     if self.size:
                         found[:, column] += np.sum(of_factor[2] * of_state[column - 1], axis=1)
                 return found
+            # From now on one call with all shifted points is enough.
+            self.stated = False
         return self._differences(at, textured)
 
     def _differences(self, at: FactorPoints, textured: bool) -> Floats:
