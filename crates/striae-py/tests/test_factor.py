@@ -118,8 +118,8 @@ def test_a_factor_of_both_textures_goes_with_their_angle() -> None:
 
 
 def test_any_number_of_threads_gives_the_same_bits() -> None:
-    tables = [slider(of_film(False)).run(threads=threads).history.table for threads in (1, 2)]
-    assert np.array_equal(*tables)
+    one, two = (slider(of_film(False)).run(threads=threads) for threads in (1, 2))
+    assert np.array_equal(one.history.table, two.history.table)
 
 
 def test_runs_at_once_share_the_interpreter() -> None:

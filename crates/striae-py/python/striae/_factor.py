@@ -176,7 +176,7 @@ class Functions:
             step = STEP * np.maximum(value, LEAST * scale)
             low, high = np.maximum(value - step, 0.0), value + step
             for ends in (low, high):
-                moved = at._replace(**{field: ends})
+                moved = _moved(at, field, ends)
                 shifted.append(moved._replace(slip=moved.slip_rate * at.duration))
             widths.append(high - low)
             columns.append(column)
@@ -188,14 +188,14 @@ class Functions:
                     for side in (-1.0, 1.0):
                         moved_by = np.zeros_like(value)
                         moved_by[present, axis] = side * STEP
-                        shifted.append(at._replace(**{field: value + moved_by}))
+                        shifted.append(_moved(at, field, value + moved_by))
                     widths.append(np.full(len(value), 2.0 * STEP))
                     columns.append(first + axis)
-        joined = FactorPoints(
-            *(np.concatenate(parts) for parts in zip(*(points[:9] for points in shifted))),
-            at.time,
-            at.duration,
-        )
+        arrays: dict[str, Any] = {
+            field: np.concatenate([getattr(points, field) for points in shifted])
+            for field in FactorPoints._fields[:-2]
+        }
+        joined = FactorPoints(**arrays, time=at.time, duration=at.duration)
         state, _ = self._states(joined)
         values, _ = self._value(joined._replace(state=state))
         parts = values.reshape(len(shifted), -1)
@@ -204,6 +204,12 @@ class Functions:
         for place, (column, width) in enumerate(zip(columns, widths)):
             found[:, column] = (parts[2 * place + 2] - parts[2 * place + 1]) / width
         return found
+
+
+def _moved(at: FactorPoints, field: str, to: Floats) -> FactorPoints:
+    """The points with other values of a field."""
+    other: dict[str, Any] = {field: to}
+    return at._replace(**other)
 
 
 def _points(given: dict[str, Any]) -> FactorPoints:
