@@ -101,7 +101,7 @@ class Functions:
         self.size = size
         #: Largest pressure and slip rate.
         self.scales = scales
-        #: Whether they state derivatives, as far as is known.
+        #: `True` if they state derivatives, as far as is known.
         self.stated = True
 
     def states(self, **given: Any) -> Floats:

@@ -70,8 +70,8 @@ class Friction(Dependences):
     ) -> Floats:
         """Largest friction at pressures, slip rates and accumulated slips (force per area): the
         coefficient times the pressure, with all dependences and the shear cap, without a factor
-        of :meth:`with_factor`; in steady slip, if it depends on a state, and at rest as stated. In laws with a direction it is scaled
-        with their slip surface, see :meth:`slip_surface`.
+        of :meth:`with_factor`; in steady slip, if it depends on a state, and at rest as stated. In
+        laws with a direction it is scaled with their slip surface, see :meth:`slip_surface`.
 
         pressure: one or many (force per area).
         slip_rate: one, or as many (length per time).
