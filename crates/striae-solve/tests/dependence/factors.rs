@@ -19,6 +19,8 @@ const SPEED: f64 = 0.15;
 const TIME: f64 = 2.0;
 
 type Function = fn(&FactorPoint, &[FactorLane]) -> FactorLane;
+/// Factor over the time since slip began.
+type Course = fn(f64) -> f64;
 
 /// A law of a function, with the slip and the time of contact for states.
 #[derive(Debug)]
@@ -66,7 +68,7 @@ fn factors(run: &Run) -> Vec<f64> {
 
 #[test]
 fn a_factor_sees_pressure_rate_time_and_its_states() {
-    let laws: [(Function, fn(f64) -> f64); 5] = [
+    let laws: [(Function, Course); 5] = [
         (
             |at, _| (at.pressure * 10.0 + 1.0).sqrt().recip(),
             |_| 1.0 / (10.0 * PRESSURE + 1.0).sqrt(),
