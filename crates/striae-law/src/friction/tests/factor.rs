@@ -10,6 +10,8 @@ use crate::friction::{
 };
 
 type Function = fn(&FactorPoint, &[FactorLane]) -> FactorLane;
+/// `true` for the violation that is expected.
+type Expected = fn(&Violation) -> bool;
 type Update = fn(&FactorPoint, &[f64]) -> Vec<FactorLane>;
 
 /// A law of functions.
@@ -148,7 +150,7 @@ fn negative_and_infinite_factors_are_refused_when_they_are_made() {
 
 #[test]
 fn the_battery_says_what_is_wrong_with_a_factor() {
-    let wrong: [(Made, fn(&Violation) -> bool); 7] = [
+    let wrong: [(Made, Expected); 7] = [
         (
             of(|at, _| (at.pressure * at.pressure + 1.0).recip()),
             |found| matches!(found, Violation::FactorFallsWithPressure(_)),
