@@ -25,6 +25,8 @@ pub struct Configuration<'a> {
     pub placement: Placement,
     /// Time since the last converged configuration; infinite where it does not matter.
     pub elapsed: f64,
+    /// Time; zero where it does not matter.
+    pub time: f64,
     /// Depth by which the sides may overlap as they have worn, zero where it does not matter.
     pub worn: f64,
 }
@@ -81,6 +83,7 @@ impl<'a> Configuration<'a> {
             sides: [snapshot(Side::A, a), snapshot(Side::B, b)],
             placement,
             elapsed: f64::INFINITY,
+            time: 0.0,
             worn: 0.0,
         }
     }
@@ -101,6 +104,11 @@ impl<'a> Configuration<'a> {
     /// Copy of the configuration, reached in the time `elapsed`.
     pub fn lasting(self, elapsed: f64) -> Self {
         Self { elapsed, ..self }
+    }
+
+    /// Copy of the configuration, at a time.
+    pub fn at_time(self, time: f64) -> Self {
+        Self { time, ..self }
     }
 
     /// Copy of the configuration, of sides that may overlap by `worn`.

@@ -2,8 +2,11 @@
 //!
 //! A pure function of two configurations, the last converged one and the present one, of
 //! the roles and of the traction unknowns.
+//!
+//! Longer than other files, as it is the one place where all that a pair contributes is joined.
 
 use rayon::prelude::*;
+use striae_law::friction::FactorFailure;
 use striae_mesh::{FacetId, Vec3};
 use striae_surface::node::SurfaceNode;
 
@@ -13,6 +16,7 @@ use crate::{
     complementarity::{Conditions, ContactNode, rows},
     configuration::Configuration,
     converged_friction::CollapsedFacets,
+    factors::{Evolving, NodeFactor, Seen, factors},
     field::{FacetForces, Fields, facet_terms},
     frame::{Frame, Frames, frames},
     kinematics::{Kinematics, Pressure, Report},
@@ -53,15 +57,19 @@ pub struct Evaluation {
     pub dissipated: f64,
     /// Wear of both sides in the increment.
     pub worn: Worn,
+    /// Conditions under which states of a factor of friction evolve, if there are some.
+    pub evolving: Option<Evolving>,
 }
 
 /// Reason why a pair cannot be evaluated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Collapse {
     /// A texture has no direction left.
     Texture(CollapsedTexture),
     /// The facets around a node have collapsed to a line.
     Facets(CollapsedFacets),
+    /// A factor of friction is not sound, or its law has failed.
+    Factor(FactorFailure),
 }
 
 /// Evaluates a pair; `start` is the last converged configuration.
@@ -70,7 +78,7 @@ pub enum Collapse {
 /// at all. The rows are the same to the last bit.
 ///
 /// # Errors
-/// When a texture has no direction left, or facets have collapsed.
+/// When a texture has no direction left, facets have collapsed, or friction has no factor.
 pub fn evaluate(
     configuration: &Configuration,
     start: &Configuration,
@@ -122,8 +130,18 @@ pub fn evaluate(
         ramp::add_to_gaps(configuration, selection, tractions, &mut kinematics);
         wear::add_to_gaps(selection, &worn, &mut kinematics);
     }
+    let seen = Seen {
+        frames: &frames,
+        textures: &textures,
+        rates: &rates,
+        kinematics: &kinematics,
+    };
+    let of_nodes = (selection, tractions);
+    let factors = factors(configuration, start, friction, of_nodes, seen);
+    let factors = factors.map_err(Collapse::Factor)?;
     let surroundings = Surroundings {
         friction,
+        factors: &factors,
         frames: &frames,
         textures: &textures,
         rates: &rates,
@@ -150,9 +168,11 @@ pub fn evaluate(
         textures: &textures,
         kinematics: &kinematics,
         rates: &rates,
+        factors: &factors,
         tau: &tau,
     };
     let mut evaluation = stage.nodal(&patches);
+    evaluation.evolving = Evolving::new(configuration, start, friction);
     evaluation.worn = Worn::new(configuration.pair, selection, &worn);
     evaluation.add_rows(&stage, conditions, derivatives);
     evaluation.follow_status(selection);
@@ -173,6 +193,7 @@ struct Stage<'a> {
     textures: &'a Textures,
     kinematics: &'a [Kinematics],
     rates: &'a SlipRates,
+    factors: &'a [NodeFactor],
     tau: &'a NodalTractions,
 }
 
@@ -190,6 +211,7 @@ impl Stage<'_> {
             topology: topology(patches.iter().map(|patch| &patch.paired)),
             dissipated: 0.0,
             worn: Worn::default(),
+            evolving: None,
         };
         for side in Side::BOTH {
             for node in SurfaceNode::all(counts[side]) {
@@ -266,6 +288,7 @@ impl Evaluation {
                     slipped: stage.tractions.slipped[side][node],
                     accumulated: stage.tractions.accumulated[side][node],
                     friction_state: stage.tractions.states[side][node],
+                    factor: stage.factors.get(k),
                     freedom: stage.selection.slip_freedom(k),
                     before: stage.tractions.labels[side][node],
                     unknowns: stage.tractions.nodes[side][node],

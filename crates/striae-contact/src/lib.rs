@@ -54,6 +54,8 @@ pub mod directions;
 pub mod evaluation;
 pub mod exposed;
 pub mod facet_coverage;
+pub mod factor_states;
+pub mod factors;
 pub mod field;
 pub mod frame;
 pub mod initial;

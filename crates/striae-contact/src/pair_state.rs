@@ -99,6 +99,9 @@ impl PairState {
         friction: &Friction,
         elapsed: f64,
     ) -> Self {
+        if let Some(evolving) = &evaluation.evolving {
+            tractions.evolve_factor(&evaluation.nodes, friction, evolving);
+        }
         tractions.accumulate(&evaluation.nodes);
         tractions.wear_off(&evaluation.worn.depths);
         tractions.evolve(&evaluation.nodes, friction, elapsed);

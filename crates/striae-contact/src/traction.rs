@@ -7,12 +7,13 @@
 use nalgebra::{Matrix3, Vector3};
 use num_dual::DualSVec64;
 use rayon::prelude::*;
-use striae_law::friction::{Friction, Textures as LawTextures};
+use striae_law::friction::{Factor, Friction, Textures as LawTextures};
 use striae_mesh::Vec3;
 use striae_surface::{node::SurfaceNode, scalar::constant3};
 
 use crate::{
     configuration::Configuration,
+    factors::NodeFactor,
     frame::{Frame, Frames},
     kinematics::{Kinematics, Pressure},
     selection::Selection,
@@ -41,6 +42,8 @@ pub struct Surroundings<'a> {
     pub rates: &'a SlipRates,
     /// Kinematics of the kept nodes, for the pressures that bound friction.
     pub kinematics: &'a [Kinematics],
+    /// Factors of friction at the kept nodes, if there are some.
+    pub factors: &'a [NodeFactor],
 }
 
 /// Friction tractions of all kept nodes.
@@ -68,7 +71,7 @@ pub fn nodal_tractions(
                         frame,
                         (side, node),
                         (first, unknowns, tractions.accumulated[side][node]),
-                        kinematics,
+                        (kinematics, surroundings.factors.get(k as usize)),
                     )
                 }
                 _ => Tracked::default(),
@@ -82,7 +85,7 @@ fn nodal_traction(
     frame: &Frame,
     (side, node): (Side, SurfaceNode),
     (first, unknowns, accumulated): (u32, [f64; 3], f64),
-    kinematics: &Kinematics,
+    (kinematics, factor): (&Kinematics, Option<&NodeFactor>),
 ) -> Tracked {
     let friction = surroundings.friction;
     let textures = &surroundings.textures[side][node];
@@ -94,7 +97,10 @@ fn nodal_traction(
     let creeps = friction.rate_and_state().is_some();
     let cap = match creeps {
         true => Cap::on_surface(&vector),
-        false => Cap::new(friction, accumulated, pressure, rate.value),
+        false => {
+            let history = (accumulated, factor.map(|factor| &factor.present));
+            Cap::new(friction, history, pressure, rate.value)
+        }
     };
     let response = if *textures == NodeTextures::default() {
         Response::new::<4>(friction, frame, textures, cap, &vector)
@@ -146,6 +152,8 @@ pub struct Cap {
     pub by_pressure: f64,
     /// `d varpi / d v`.
     pub by_rate: f64,
+    /// Derivatives by normal and textures.
+    pub by_surroundings: [f64; 9],
 }
 
 impl Cap {
@@ -155,18 +163,38 @@ impl Cap {
             value: z.norm(),
             by_pressure: 0.0,
             by_rate: 0.0,
+            by_surroundings: [0.0; 9],
         }
     }
 
-    /// After an accumulated slip, at a pressure and a slip rate.
-    pub fn new(friction: &Friction, accumulated: f64, pressure: f64, rate: f64) -> Self {
+    /// After an accumulated slip, at a pressure and a slip rate, with the factor there if friction
+    /// has one.
+    pub fn new(
+        friction: &Friction,
+        (accumulated, factor): (f64, Option<&Factor>),
+        pressure: f64,
+        rate: f64,
+    ) -> Self {
+        let Some(factor) = factor else {
+            let (pressure, rate) = (variable(pressure, 0), variable(rate, 1));
+            let varpi: DualSVec64<2> = friction.cap_after(accumulated, pressure, rate);
+            let [by_pressure, by_rate] = gradient(&varpi);
+            return Self {
+                value: varpi.re,
+                by_pressure,
+                by_rate,
+                by_surroundings: [0.0; 9],
+            };
+        };
         let (pressure, rate) = (variable(pressure, 0), variable(rate, 1));
-        let varpi: DualSVec64<2> = friction.cap_after(accumulated, pressure, rate);
-        let [by_pressure, by_rate] = gradient(&varpi);
+        let value = variable(factor.value, 2);
+        let varpi: DualSVec64<3> = friction.cap_with(accumulated, pressure, rate, value);
+        let [by_pressure, by_rate, by_factor] = gradient(&varpi);
         Self {
             value: varpi.re,
-            by_pressure,
-            by_rate,
+            by_pressure: by_pressure + by_factor * factor.by_pressure,
+            by_rate: by_rate + by_factor * factor.by_slip_rate,
+            by_surroundings: factor.by_surroundings.map(|by| by_factor * by),
         }
     }
 }
@@ -203,6 +231,11 @@ impl Response {
         let by_cap = Vec3::from(gradient[3]);
         let mut by_surroundings = [[0.0; 3]; 9];
         by_surroundings[..N - 4].copy_from_slice(&gradient[4..]);
+        for (sum, by) in by_surroundings.iter_mut().zip(&cap.by_surroundings) {
+            for (sum, by_cap) in sum.iter_mut().zip(&gradient[3]) {
+                *sum += by_cap * by;
+            }
+        }
         Self {
             tau,
             by_vector: Matrix3::from_fn(|row, column| gradient[column][row]),

@@ -4,6 +4,8 @@ use serde::{Deserialize, Serialize};
 use striae_law::friction::{Friction, RateAndState};
 use striae_mesh::Vec3;
 
+use crate::factor_states::FactorStates;
+
 /// Traction unknowns of a pair; the same shape whatever the roles.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Tractions {
@@ -26,6 +28,8 @@ pub struct Tractions {
     /// State `theta` of friction of each node at the last converged state, by side; zero before
     /// there is friction that depends on one.
     pub states: [Vec<f64>; 2],
+    /// States of a factor of friction at the last converged state; `None` before there is one.
+    pub factors: Option<FactorStates>,
     /// Labels of the nodes after the iterations so far, by side; before the first iteration, slip
     /// for nodes that slipped in the last increment and open for all others. They matter with a
     /// corrector, and where friction falls with the slip rate.
@@ -43,6 +47,7 @@ impl Tractions {
             accumulated: nodes.map(|count| vec![0.0; count]),
             worn: nodes.map(|count| vec![0.0; count]),
             states: nodes.map(|count| vec![0.0; count]),
+            factors: None,
             tau_n: nodes.map(|count| vec![[0.0; 2]; count]),
             labels: nodes.map(|count| vec![Label::default(); count]),
         }

@@ -102,6 +102,8 @@ fn all_dependences_of_friction_are_written() {
         r#"by_accumulated_slip = { form = "table", slips = [0, 0.1, 1], factors = [1, 1.4, 0.9] }"#,
         r#"by_state = { form = "ageing-law", direct_effect = 0.01, evolution_effect = 0.015, slip_rate = 1e-6, slip_distance = 1e-5 }"#,
         r#"by_state = { form = "slip-law", direct_effect = 0.01, evolution_effect = 0, slip_rate = 1e-6, slip_distance = 1e-5, state = 3 }"#,
+        r#"by_state = { form = "static-kinetic", kinetic_over_static = 0.6, slip_distance = 1e-5, healing_time = 3, state = 0.5 }"#,
+        r#"by_state = { form = "logarithmic-healing", factor = 0.05, slip_distance = 1e-5, healing_time = 3 }"#,
         r#"by_slip_rate = { form = "table", slip_rates = [0, 0.1, 1], factors = [1, 0.8, 0.9] }"#,
     ] {
         let text = EVERYTHING.replacen(decay, keys, 1);

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use striae_contact::{
+    factor_states::{FactorStates, LARGEST_STATE},
     side::Side,
     unknowns::{NodeResult, Status as ContactStatus},
 };
@@ -77,6 +78,27 @@ pub(crate) fn write_surface(
     write(path, &grid)
 }
 
+/// Names of the states of a factor with more than one.
+const STATES: [&str; LARGEST_STATE] = [
+    "friction_state_1",
+    "friction_state_2",
+    "friction_state_3",
+    "friction_state_4",
+    "friction_state_5",
+    "friction_state_6",
+    "friction_state_7",
+    "friction_state_8",
+];
+
+/// States of a factor of friction, one array each.
+fn of_factor(states: &FactorStates, side: Side) -> Vec<(&'static str, Values)> {
+    let of = |at: usize| Values::Scalars(states.of(side, at));
+    match states.count {
+        1 => vec![("friction_state", of(0))],
+        count => (0..count).map(|at| (STATES[at], of(at))).collect(),
+    }
+}
+
 /// Arrays of a field.
 fn arrays(
     field: ContactField,
@@ -116,8 +138,14 @@ fn arrays(
             vec![("worn_depth", Values::Scalars(worn.clone()))]
         }
         ContactField::FrictionState => {
-            let states = &state.pairs[pair].tractions.states[side];
-            vec![("friction_state", Values::Scalars(states.clone()))]
+            let tractions = &state.pairs[pair].tractions;
+            match &tractions.factors {
+                Some(states) => of_factor(states, side),
+                None => {
+                    let states = tractions.states[side].clone();
+                    vec![("friction_state", Values::Scalars(states))]
+                }
+            }
         }
         ContactField::FrictionWork => vec![("friction_work", sums(wanted, 1, 1.0))],
         ContactField::Normal => vec![("normal", vectors(|node| node.normal))],

@@ -5,7 +5,8 @@ use pyo3::prelude::*;
 use striae::law::{
     declared::Kind,
     friction::{
-        self, BY_PRESSURE, BY_RATE, BY_SLIP, BY_STATE, DECAY, FrictionError, LAWS, RequiredTextures,
+        self, BY_PRESSURE, BY_RATE, BY_SLIP, BY_STATE, DECAY, FactorRange, FrictionError, LAWS,
+        OwnFactor, RequiredTextures,
     },
 };
 
@@ -13,7 +14,9 @@ use crate::{
     array::Array1,
     declared::{self, Given},
     fault::{model_error, refused},
+    own_factor::Function,
     own_friction::{Harmonic, Periodic},
+    raised::Raised,
 };
 
 /// Friction between two surfaces.
@@ -40,6 +43,57 @@ impl Friction {
         let violations = friction::battery(&made.0);
         if violations.is_empty() {
             return Ok(made);
+        }
+        let told = violations.iter().map(|one| (name.clone(), one.to_string()));
+        Err(model_error(told.collect()))
+    }
+
+    /// The law with a factor that functions state for many points at once. With it the law must
+    /// pass the battery of friction laws.
+    #[allow(clippy::too_many_arguments)]
+    fn with_factor(
+        &self,
+        name: String,
+        factors: Py<PyAny>,
+        states: Py<PyAny>,
+        initial: Vec<f64>,
+        range: [f64; 6],
+        textures: &str,
+    ) -> PyResult<Self> {
+        let [pressure, slip_rate, slip, position, time, elapsed] = range;
+        let raised = Raised::default();
+        let law = Function {
+            name: name.clone(),
+            factors,
+            states,
+            initial,
+            range: FactorRange {
+                pressure,
+                slip_rate,
+                slip,
+                position,
+                time,
+                elapsed,
+            },
+            textures: match textures {
+                "both" => RequiredTextures::Both,
+                "one" => RequiredTextures::One,
+                _ => RequiredTextures::Any,
+            },
+            raised: raised.clone(),
+        };
+        let factor = OwnFactor::new(law);
+        let judged = factor.and_then(|factor| {
+            let made = self.0.clone().with_factor(factor)?;
+            let violations = friction::battery(&made);
+            Ok((made, violations))
+        });
+        if let Some(error) = raised.take() {
+            return Err(error);
+        }
+        let (made, violations) = judged.map_err(|error| refused(&name, error))?;
+        if violations.is_empty() {
+            return Ok(Self(made));
         }
         let told = violations.iter().map(|one| (name.clone(), one.to_string()));
         Err(model_error(told.collect()))

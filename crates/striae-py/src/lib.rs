@@ -20,6 +20,7 @@ mod material;
 mod mesh;
 mod model;
 mod own;
+mod own_factor;
 mod own_friction;
 mod pair;
 mod raised;

@@ -28,6 +28,7 @@ use crate::{
     friction::Friction,
     material::Material,
     mesh::Mesh,
+    own_factor::raised_in,
     pair::Pair,
     raised::Raised,
     rigid::Rigid,
@@ -242,7 +243,7 @@ impl Model {
     /// Returns whether Python functions are called during a run.
     #[getter]
     fn calls_python(&self) -> bool {
-        !self.raised.is_empty()
+        !self.raised.is_empty() || !raised_in(&self.model).is_empty()
     }
 
     /// Faults, warnings and notes, as of `striae check`.

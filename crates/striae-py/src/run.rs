@@ -33,6 +33,7 @@ use crate::{
     fault::raised,
     listen::{Callback, listen},
     model::Model,
+    own_factor::raised_in,
     raised::Raised,
     results::{Kept, Results},
     start,
@@ -299,6 +300,11 @@ fn watched(
     watching: Watching,
     laws: Vec<Raised>,
 ) -> PyResult<Ended> {
+    let own = laws.clone();
+    let factors = raised_in(&simulation.problem().model);
+    // What other runs have left says nothing about this one.
+    factors.iter().for_each(|raised| drop(raised.take()));
+    let laws: Vec<Raised> = laws.into_iter().chain(factors).collect();
     let listened = laws.clone();
     let (on_increment, keep, threads) = watching;
     let problem = simulation.problem().clone();
@@ -343,7 +349,7 @@ fn watched(
     let (finished, messenger) = outcome;
     let finished = finished?.map_err(|error: Error| raised(error, "model"))?;
     let stopped = stopped.or_else(|| laws.iter().find_map(Raised::take));
-    Ok((ended_with(finished, messenger, laws), stopped))
+    Ok((ended_with(finished, messenger, own), stopped))
 }
 
 /// The run with its last state among those that are kept.

@@ -206,7 +206,9 @@ fn configurations<'a>(setting: &Setting<'a>, trial: &'a Trial) -> Vec<Configurat
         .map(|pair| {
             let context = setting.context;
             let configuration = context.configuration(pair, &trial.positions, &trial.rigid);
-            configuration.lasting(setting.imposed.elapsed)
+            configuration
+                .lasting(setting.imposed.elapsed)
+                .at_time(setting.imposed.time)
         })
         .collect()
 }

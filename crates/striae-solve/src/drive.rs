@@ -386,7 +386,10 @@ fn stopped(
 ) -> Ending {
     let limit = || at_limit(context, state, reached);
     let found = match reason {
-        CutBack::NotBridged { .. } | CutBack::Overlap { .. } | CutBack::Free { .. } => None,
+        CutBack::NotBridged { .. }
+        | CutBack::Overlap { .. }
+        | CutBack::Free { .. }
+        | CutBack::Factor { .. } => None,
         CutBack::Released { .. } => limit(),
         _ => tips(context, state, [reached, wanted], workspace).or_else(limit),
     };

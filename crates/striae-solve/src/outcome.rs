@@ -89,6 +89,14 @@ pub enum CutBack {
         /// The node.
         node: striae_mesh::NodeId,
     },
+    /// A factor of friction is not sound, or its law has failed.
+    #[error("pair `{pair}`: {failure}")]
+    Factor {
+        /// Name of the pair.
+        pair: String,
+        /// The law and the cause.
+        failure: striae_law::friction::FactorFailure,
+    },
     /// Nodes outside the contact zone ran into the other side.
     #[error(
         "pair `{pair}`: {} nodes reached the other surface undetected, the first is {node} of body `{body}`",

@@ -1,4 +1,6 @@
 //! Output by choice: fields, bodies, intervals, probes, what slip has done, resultants.
+//!
+//! Longer than other files, as all of them look at one deck.
 
 use std::path::Path;
 
@@ -287,6 +289,25 @@ fn states_of_friction_are_those_of_the_time_and_the_slip() {
     let left = (-0.1_f64 / 0.2).exp();
     let slid = 4.0 * left + 2.0 * (1.0 - left);
     assert_all(folder, &contact[2], "friction_state", &[4.0]);
+    assert_all(folder, contact.last().unwrap(), "friction_state", &[slid]);
+}
+
+#[test]
+fn the_state_of_healing_is_written() {
+    let friction = r#"friction = { law = "coulomb", mu = 0.5, by_state = { form = "static-kinetic", kinetic_over_static = 0.6, slip_distance = 0.2, healing_time = 2, state = 0.3 } }"#;
+    let text = DECK.replace(r#"friction = { law = "coulomb", mu = 0.5 }"#, friction);
+    let text = text.replace(r#""gap", "slip-rate""#, r#""friction-state", "slip-rate""#);
+    let folder = tempfile::tempdir().unwrap();
+    let (folder, text) = (folder.path(), text.replace("CELLS", "hexahedra"));
+    let deck = deck::parse(&text, "deck.toml", Path::new("")).unwrap();
+    let simulation = Simulation::of(deck).unwrap();
+    simulation.recorded(folder, "bar").run().unwrap();
+    let contact = snapshots(folder, "contact.pvd");
+    // It heals for a time of 1, then slips at 0.1.
+    let rested = 1.0 - 0.7 * (-0.5_f64).exp();
+    let steady = 0.5 / (0.5 + 0.5);
+    let slid = steady + (rested - steady) * (-1.0_f64).exp();
+    assert_all(folder, &contact[2], "friction_state", &[rested]);
     assert_all(folder, contact.last().unwrap(), "friction_state", &[slid]);
 }
 

@@ -27,10 +27,25 @@ const fn short(deck: &'static str) -> Case {
     }
 }
 
-const CASES: [Case; 6] = [
+/// Two blocks with a state of friction.
+const fn with_state(friction: &'static str) -> Case {
+    Case {
+        deck: "two-blocks/deck",
+        replaced: Some(["mu = 0.3 }", friction]),
+        is_long: false,
+    }
+}
+
+const CASES: [Case; 8] = [
     short("patch-frictionless/three-to-four-lower-finer"),
     short("patch-stick/three-to-four"),
     short("two-blocks/deck"),
+    with_state(
+        r#"mu = 0.3, by_state = { form = "ageing-law", direct_effect = 0.02, evolution_effect = 0.01, slip_rate = 0.1, slip_distance = 0.05 } }"#,
+    ),
+    with_state(
+        r#"mu = 0.3, by_state = { form = "static-kinetic", kinetic_over_static = 0.8, slip_distance = 0.1, healing_time = 1 } }"#,
+    ),
     short("hertz-mindlin/deck"),
     short("bar-impact/deck"),
     Case {

@@ -321,6 +321,21 @@ mod tests {
     }
 
     #[test]
+    fn healing_is_told_and_drawn() {
+        let scratch = tempfile::tempdir().unwrap();
+        let constants = r#"mu=0.3,by_state={form="static-kinetic",kinetic_over_static=0.6,slip_distance=0.1,healing_time=5}"#;
+        let text = said(&["--coulomb", constants], scratch.path()).unwrap();
+        for line in [
+            "coulomb, mu = 0.3, varpi = mu H p\n",
+            "  slip and time: H = 0.6 + (1 - 0.6) psi, d psi/dt = (1 - psi)/5 - psi v/0.1\n",
+        ] {
+            assert!(text.contains(line), "{text}");
+        }
+        let drawn = scratch.path().join("coulomb-coefficient.csv");
+        assert!(drawn.metadata().unwrap().len() > 1000);
+    }
+
+    #[test]
     fn refused_constants_name_where_friction_would_create_energy() {
         let scratch = tempfile::tempdir().unwrap();
         let refused = |law: &str, constants: &str| {

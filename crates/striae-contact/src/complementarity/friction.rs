@@ -173,9 +173,9 @@ impl Friction<'_> {
     fn continued_radius(&self) -> Q {
         let radius = self.reaching(&self.varpi, &self.z);
         let [z1, z2] = self.z.map(|z| z.re);
-        let by_rate = self.state.friction.coefficient().by_rate();
-        let share = match by_rate.is_some() {
-            true if radius.re > 0.0 => (z1.hypot(z2) / radius.re).min(by_rate.largest_over_rest()),
+        let friction = self.state.friction;
+        let share = match friction.depends_on_rate() {
+            true if radius.re > 0.0 => (z1.hypot(z2) / radius.re).min(friction.largest_over_rest()),
             _ => 1.0,
         };
         Q::combination([(share, &radius)])

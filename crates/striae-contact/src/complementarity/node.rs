@@ -5,7 +5,7 @@ use striae_mesh::Vec3;
 use striae_surface::node::SurfaceNode;
 
 use crate::{
-    frame::Frame, kinematics::Kinematics, segment::Derivatives, side::Side,
+    factors::NodeFactor, frame::Frame, kinematics::Kinematics, segment::Derivatives, side::Side,
     slip_freedom::SlipFreedom, table_1::Corrector, texture::NodeTextures, tracked::TrackedScalar,
     unknown::Prescribed, unknowns::Label,
 };
@@ -76,6 +76,8 @@ pub struct ContactNode<'a> {
     pub accumulated: f64,
     /// State of its friction at the last converged state, zero before there is one.
     pub friction_state: f64,
+    /// Factors of its friction, if the law has some.
+    pub factor: Option<&'a NodeFactor>,
     /// In which directions its friction is determined.
     pub freedom: SlipFreedom,
     /// Label from the previous iterations.

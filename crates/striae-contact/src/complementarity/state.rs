@@ -201,22 +201,29 @@ impl<'a> NodeState<'a> {
     /// `varpi` at a slip rate.
     pub(super) fn varpi(&self, rate: Rate) -> Q {
         let present = self.node.rate.value;
-        let rate = match rate {
-            Rate::Present => present,
+        let factor = self.node.factor;
+        let of_present = factor.map(|factor| &factor.present);
+        let (rate, factor) = match rate {
+            Rate::Present => (present, of_present),
             Rate::Along(y) => {
                 let goes = y[0] * self.turned[0].re + y[1] * self.turned[1].re;
-                if goes > 0.0 { present } else { 0.0 }
+                match goes > 0.0 {
+                    true => (present, of_present),
+                    false => (0.0, factor.map(|factor| &factor.at_rest)),
+                }
             }
-            Rate::Weakest => self.friction.weakest_rate().unwrap_or(present),
+            Rate::Weakest => (
+                self.friction.weakest_rate().unwrap_or(present),
+                factor.map(|factor| &factor.fast),
+            ),
         };
-        let cap = Cap::new(
-            self.friction,
-            self.node.accumulated,
-            self.bounding_pressure(),
-            rate,
-        );
+        let history = (self.node.accumulated, factor);
+        let cap = Cap::new(self.friction, history, self.bounding_pressure(), rate);
         let mut varpi = Q::constant(cap.value);
         varpi.slope[self.pressure_lane()] = cap.by_pressure;
+        for (lane, by) in cap.by_surroundings.iter().enumerate() {
+            varpi.slope[of_law(lane)] += by;
+        }
         if rate == present {
             varpi.slope[RATE] = cap.by_rate;
         }

@@ -123,6 +123,12 @@ pub enum FaultKind {
         /// The node.
         node: NodeId,
     },
+    /// A factor of friction is not sound, or its law has failed.
+    #[error("{cause}")]
+    Factor {
+        /// Cause, in words.
+        cause: String,
+    },
     /// A state or an evaluation of other surfaces.
     #[error("it belongs to other surfaces; use one that this contact has made")]
     Foreign,

@@ -151,7 +151,10 @@ impl Increment {
                 wanted: None,
             };
             let evaluation = evaluate(
-                &self.at(pair, x).lasting(self.imposed.duration),
+                &self
+                    .at(pair, x)
+                    .lasting(self.imposed.duration)
+                    .at_time(self.time()),
                 &self.at_start(pair),
                 &self.selections[pair],
                 &evaluated.tractions[pair],
@@ -262,6 +265,7 @@ impl Increment {
             positions: evaluated.x.clone(),
             placements: self.imposed.placements.clone(),
             pairs: (0..self.contact.pair_count()).map(after).collect(),
+            time: self.time(),
         })
     }
 
@@ -271,6 +275,14 @@ impl Increment {
         match is_own {
             true => Ok(()),
             false => Err(Faults::one(place, FaultKind::Foreign)),
+        }
+    }
+
+    /// Time at the end.
+    fn time(&self) -> f64 {
+        match self.imposed.duration.is_finite() {
+            true => self.start.time + self.imposed.duration,
+            false => self.start.time,
         }
     }
 
@@ -289,13 +301,19 @@ impl Increment {
     }
 
     fn collapsed(&self, pair: usize, collapse: Collapse) -> Faults {
-        let (Collapse::Texture(CollapsedTexture { side, node })
-        | Collapse::Facets(CollapsedFacets { side, node })) = collapse;
+        let (side, node) = match &collapse {
+            Collapse::Texture(CollapsedTexture { side, node })
+            | Collapse::Facets(CollapsedFacets { side, node }) => (*side, *node),
+            Collapse::Factor(failure) => {
+                let cause = failure.to_string();
+                return Faults::one(format!("pairs[{pair}]"), FaultKind::Factor { cause });
+            }
+        };
         let surface = self.contact.members()[pair].pair.sides[side].surface();
         let node = surface.map_or(NodeId(0), |surface| surface.nodes()[node.index()]);
         let kind = match collapse {
             Collapse::Texture(_) => FaultKind::CollapsedTexture { node },
-            Collapse::Facets(_) => FaultKind::CollapsedFacets { node },
+            Collapse::Facets(_) | Collapse::Factor(_) => FaultKind::CollapsedFacets { node },
         };
         Faults::one(format!("pairs[{pair}].{side}"), kind)
     }

@@ -15,6 +15,8 @@ pub struct State {
     pub(super) placements: Vec<Placement>,
     /// State of every pair.
     pub(super) pairs: Vec<PairState>,
+    /// Sum of the durations of the increments, as far as they have one.
+    pub(super) time: f64,
 }
 
 impl Contact {
@@ -25,6 +27,7 @@ impl Contact {
             positions: self.reference().to_vec(),
             placements: vec![Placement::at_rest(); self.pair_count()],
             pairs: members.map(|of| PairState::untouched(&of.pair)).collect(),
+            time: 0.0,
         }
     }
 }

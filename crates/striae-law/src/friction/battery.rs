@@ -3,14 +3,17 @@
 //! A law is checked against mechanics at random places: tractions stay inside the slip surface,
 //! slip dissipates, the response rotates with its arguments, is independent of the side it is seen
 //! from and tangential to both surfaces, `K^-1` is the inverse of `K`, and derivatives are exact,
-//! judged by the order at which finite-difference errors decrease.
+//! judged by the order at which finite-difference errors decrease. Factors by healing and of one's
+//! own are judged in `battery/factors.rs`.
+
+mod factors;
 
 use nalgebra::{DMatrix, DVector, Matrix3, SVector, Vector2, Vector3};
 use num_dual::{DualNum, jacobian};
 use striae_verify::derivative::directional;
 use striae_verify::{Difference, Random};
 
-use super::{Friction, Kernel, RequiredTextures, Textures};
+use super::{FactorFailure, Friction, Kernel, RequiredTextures, Textures};
 
 /// Something a friction law gets wrong.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -44,6 +47,46 @@ pub enum Violation {
     /// A derivative is wrong.
     #[error("derivatives by pressure, slip rate, z, textures or normal are wrong\n{0}")]
     Derivative(String),
+    /// A factor of one's own is negative or not finite, or its law has failed.
+    #[error("{0}")]
+    Factor(FactorFailure),
+    /// Friction by a factor falls with the pressure, so that an increment has several solutions.
+    #[error(
+        "the factor lets friction fall as the pressure rises, at {0}: make the pressure times the \
+         factor ascend"
+    )]
+    FactorFallsWithPressure(String),
+    /// A factor has an infinite slope by the slip rate at rest.
+    #[error(
+        "the factor jumps or has no finite slope where slip begins, at {0}; the rate of a node that \
+         sticks is round-off: let it leave rest with a finite slope, as by `v + v_0` for `v`, or use \
+         friction by rate and state"
+    )]
+    FactorSteepAtRest(String),
+    /// A factor differs between the two surfaces, or turns with them.
+    #[error(
+        "the factor changes by {0:.3e} as seen from the other surface, or with a rotation of normal \
+         and textures: let it depend on them by angles that both surfaces see alike"
+    )]
+    FactorSides(f64),
+    /// A derivative of a factor is wrong.
+    #[error(
+        "derivatives of the factor by pressure, slip rate, normal or textures, with those of the \
+         state at the end of the increment, are wrong\n{0}"
+    )]
+    FactorDerivative(String),
+    /// A state changes in no time.
+    #[error(
+        "the state changes by {0:.3e} in an increment of no duration: what is added must be \
+         proportional to the duration or to the slip"
+    )]
+    FactorStateJumps(f64),
+    /// A state depends on how time is divided.
+    #[error(
+        "the state after an increment and after its two halves differ by more than errors of second \
+         order in the duration: make the update one of an evolution in time and slip\n{0}"
+    )]
+    FactorState(String),
 }
 
 /// Random places where algebra is checked.
@@ -79,6 +122,9 @@ pub fn battery(friction: &Friction) -> Vec<Violation> {
     }
     for place in Place::of(friction, &mut random) {
         violations.extend(has_exact_derivatives(friction, &place, &mut random).err());
+    }
+    if let Some(law) = friction.factor() {
+        violations.extend(factors::violations(law, friction.required_textures()));
     }
     let mut kinds = Vec::new();
     violations.retain(|violation| {

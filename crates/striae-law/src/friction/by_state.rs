@@ -1,6 +1,7 @@
 //! Coefficients of friction that depend on the slip rate and on a state of the surface.
 //!
-//! The friction of Dieterich and Ruina: with the slip rate `v`, a state `theta` in units of time,
+//! Static and kinetic friction with healing is in `by_state/healing.rs`. The
+//! friction of Dieterich and Ruina: with the slip rate `v`, a state `theta` in units of time,
 //! and the stated coefficient `mu`, that of steady slip at the rate `v_0`,
 //!
 //! ```text
@@ -44,12 +45,16 @@
 //! Rice, Lapusta & Ranjith (2001), "Rate and state dependent friction and the stability of sliding
 //! between elastically deformable solids", J. Mech. Phys. Solids 49, 1865-1898.
 
+mod healing;
+
 use std::{convert::Infallible, fmt};
 
 use num_dual::DualNum;
 use serde::Serialize;
 
 use super::error::{FrictionError, not_negative, positive};
+pub use healing::{Healing, HealingCourse};
+
 use crate::declared::{
     Absent, Declared, Kind, NO_UNIT, NOT_NEGATIVE, POSITIVE, Parameter, Statement, Values,
 };
@@ -58,9 +63,19 @@ use crate::declared::{
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[serde(transparent)]
 pub struct StateDependence {
-    form: Option<RateAndState>,
+    form: Form,
     #[serde(skip)]
     statement: Option<Statement>,
+}
+
+/// Its forms.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[serde(untagged)]
+enum Form {
+    #[default]
+    None,
+    RateAndState(RateAndState),
+    Healing(Healing),
 }
 
 /// Constants of friction that depends on rate and state.
@@ -90,7 +105,12 @@ pub enum Evolution {
 }
 
 /// The forms that can be called by their names.
-pub static BY_STATE: &[&Declared<StateDependence>] = &[&AGEING, &SLIP];
+pub static BY_STATE: &[&Declared<StateDependence>] = &[
+    &AGEING,
+    &SLIP,
+    &healing::STATIC_KINETIC,
+    &healing::LOGARITHMIC,
+];
 
 const PARAMETERS: [Parameter; 5] = [
     Parameter::number(
@@ -151,7 +171,7 @@ static SLIP: Declared<StateDependence> = Declared {
 fn built(evolution: Evolution, values: &Values) -> Result<StateDependence, FrictionError> {
     let above_zero = |name: &'static str| positive(name, values.number(name));
     Ok(StateDependence {
-        form: Some(RateAndState {
+        form: Form::RateAndState(RateAndState {
             evolution,
             direct_effect: above_zero("direct_effect")?,
             evolution_effect: not_negative("evolution_effect", values.number("evolution_effect"))?,
@@ -177,7 +197,24 @@ impl Kind for StateDependence {
     }
 }
 
+impl From<Healing> for StateDependence {
+    fn from(healing: Healing) -> Self {
+        Self {
+            form: Form::Healing(healing),
+            statement: None,
+        }
+    }
+}
+
 impl StateDependence {
+    /// Coefficients that fall with slip and heal with these constants.
+    ///
+    /// # Errors
+    /// When a constant is out of range.
+    pub fn healing(law: Healing) -> Result<Self, FrictionError> {
+        law.made()
+    }
+
     /// Coefficients that depend on rate and state with these constants.
     ///
     /// # Errors
@@ -198,20 +235,33 @@ impl StateDependence {
 
     /// Returns whether there is any.
     pub fn is_some(&self) -> bool {
-        self.form.is_some()
+        self.form != Form::None
     }
 
-    /// The constants, if there is a dependence.
+    /// The constants of rate and state, if they are of such friction.
     pub fn constants(&self) -> Option<&RateAndState> {
-        self.form.as_ref()
+        match &self.form {
+            Form::RateAndState(law) => Some(law),
+            Form::None | Form::Healing(_) => None,
+        }
+    }
+
+    /// The constants of healing, if they are of such friction.
+    pub fn of_healing(&self) -> Option<&Healing> {
+        match &self.form {
+            Form::Healing(law) => Some(law),
+            Form::None | Form::RateAndState(_) => None,
+        }
     }
 }
 
 impl fmt::Display for StateDependence {
-    /// The formula of the coefficient with its constants.
+    /// The formula of the coefficient with its constants, of healing that of its factor.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Some(law) = &self.form else {
-            return write!(f, "mu");
+        let law = match &self.form {
+            Form::None => return write!(f, "mu"),
+            Form::Healing(law) => return write!(f, "{law}"),
+            Form::RateAndState(law) => law,
         };
         let RateAndState {
             direct_effect: a,

@@ -2,6 +2,16 @@
 
 use thiserror::Error;
 
+/// Reason why a law has no factor.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[error("factor of friction `{law}`: {cause}")]
+pub struct FactorFailure {
+    /// Name of the law.
+    pub law: String,
+    /// Cause, in words.
+    pub cause: String,
+}
+
 /// A friction law whose constants are refused.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum FrictionError {
@@ -51,6 +61,20 @@ pub enum FrictionError {
         degrees: f64,
         /// Dissipation over `varpi |du|`, zero or negative.
         dissipation: f64,
+    },
+    /// A factor of one's own is not sound.
+    #[error(transparent)]
+    Factor(#[from] FactorFailure),
+    /// A factor of one's own and the law need textures of different surfaces.
+    #[error(
+        "factor `{factor}` and law `{law}` need textures of different surfaces, one of them of both \
+         and the other of one alone"
+    )]
+    FactorTextures {
+        /// Name of the factor.
+        factor: String,
+        /// Name of the law.
+        law: String,
     },
     /// The forces of a law from outside do not surround the origin.
     #[error(

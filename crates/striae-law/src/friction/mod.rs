@@ -8,6 +8,8 @@
 //! dual numbers, so their derivatives are exact. Where coefficients depend on rate and state,
 //! [`Friction::creep`] takes the place of the radius.
 //!
+//! Longer than other files, as it joins all dependences and laws in one type.
+//!
 //! Conventions: `p >= 0` is compressive; slip is the motion of the surface that
 //! carries the point relative to the other one; the traction acts on the
 //! surface that carries the point.
@@ -24,6 +26,7 @@ mod coulomb;
 mod creep;
 mod ellipse;
 mod error;
+mod factor;
 mod kernel;
 mod monotone;
 mod nap;
@@ -36,6 +39,7 @@ mod slip_sample;
 mod slip_surface;
 mod star;
 mod tabulated;
+mod textures;
 mod two_textures;
 
 #[cfg(test)]
@@ -47,13 +51,18 @@ pub use battery::{Violation, battery};
 pub use by_pressure::{BY_PRESSURE, FLOOR_OF_ADHESION, FLOOR_OF_POWER_LAW, PressureDependence};
 pub use by_rate::{BY_RATE, DECAY, Decay, Logarithm, RateDependence};
 pub use by_slip::{BY_SLIP, SlipDependence};
-pub use by_state::{BY_STATE, Evolution, RateAndState, StateDependence};
+pub use by_state::{BY_STATE, Evolution, Healing, HealingCourse, RateAndState, StateDependence};
 pub use coefficient::Coefficient;
 pub use creep::{Creep, Past};
 pub use ellipse::Ellipse;
-pub use error::FrictionError;
-pub use kernel::{Kernel, Textures};
+pub use error::{FactorFailure, FrictionError};
+pub use factor::{
+    Factor, FactorBatch, FactorLane, FactorLaw, FactorPoint, FactorPoints, FactorRange,
+    LARGEST_STATE, OwnFactor,
+};
+pub use kernel::Kernel;
 pub use nap::Nap;
+pub use num_dual::DualNum;
 pub use oblique::Oblique;
 pub use orthotropic::Orthotropic;
 pub use own::{FrictionLaw, Lane, Own};
@@ -63,12 +72,12 @@ pub use slip_sample::{Extremes, SlipRule, SlipSample};
 pub use slip_surface::SlipSurface;
 pub use star::Star;
 pub use tabulated::{Radial, Tabulated};
+pub use textures::Textures;
 pub use two_textures::{LeastDissipation, TwoTextures};
 
 use crate::declared::{Declared, Kind, Statement};
 use error::positive;
 use nalgebra::Vector3;
-use num_dual::DualNum;
 
 /// The laws that decks, the program and the Python package know by name.
 pub static LAWS: &[&Declared<Friction>] = &[
@@ -134,6 +143,15 @@ impl Law {
             Self::Nap(_) => "nap",
             Self::Tabulated(_) => "tabulated",
             Self::Own(own) => own.law().name(),
+        }
+    }
+
+    fn required_textures(&self) -> RequiredTextures {
+        match self {
+            Self::Frictionless | Self::Coulomb => RequiredTextures::Any,
+            Self::Orthotropic(_) | Self::Nap(_) | Self::Tabulated(_) => RequiredTextures::One,
+            Self::TwoTextures(_) => RequiredTextures::Both,
+            Self::Own(own) => own.law().required_textures(),
         }
     }
 }
@@ -209,6 +227,47 @@ impl Friction {
         }
     }
 
+    /// Lets all coefficients have a factor of one's own, in place of a dependence on slip rate and
+    /// state; see [`FactorLaw`].
+    ///
+    /// # Errors
+    /// When the factor needs textures of other surfaces than the law.
+    pub fn with_factor(self, factor: OwnFactor) -> Result<Self, FrictionError> {
+        let [law, of_factor] = [
+            self.law.required_textures(),
+            factor.law().required_textures(),
+        ];
+        let any = RequiredTextures::Any;
+        if law != of_factor && law != any && of_factor != any {
+            return Err(FrictionError::FactorTextures {
+                factor: factor.law().name().to_owned(),
+                law: self.law.name().to_owned(),
+            });
+        }
+        Ok(Self {
+            coefficient: self.coefficient.with_factor(factor),
+            // It does not tell the factor.
+            statement: None,
+            ..self
+        })
+    }
+
+    /// Factors of the coefficients at points, by healing or of one's own, if there is one.
+    ///
+    /// # Errors
+    /// When it is negative or not finite, or a law has failed.
+    pub fn factors(&self, points: &FactorPoints) -> Result<Option<Vec<Factor>>, FactorFailure> {
+        let law = self.factor();
+        law.map(|law| factor::sound_factors(law, points))
+            .transpose()
+    }
+
+    /// Factor by healing or of one's own, if there is one.
+    pub fn factor(&self) -> Option<&dyn FactorBatch> {
+        let law = self.coefficient.factor();
+        law.filter(|_| !self.is_frictionless())
+    }
+
     /// Lets all coefficients decay exponentially with the slip rate, from the stated values
     /// at rest to `kinetic_over_static` times them; see [`Decay`].
     ///
@@ -253,15 +312,24 @@ impl Friction {
 
     /// Returns whether `varpi` depends on the slip rate.
     pub fn depends_on_rate(&self) -> bool {
-        self.coefficient.by_rate().is_some()
+        let course = self.coefficient.course();
+        self.coefficient.by_rate().is_some() || course.is_some_and(|course| course.goes_with_rate)
     }
 
     /// Returns whether `varpi` falls with the slip rate anywhere.
     pub fn weakens(&self) -> bool {
-        self.weakest_rate().is_some()
+        let course = self.coefficient.course();
+        self.weakest_rate().is_some() || course.is_some_and(|course| course.falls)
     }
 
-    /// The slip rate at which `varpi` has fallen most, if it falls anywhere.
+    /// Largest `varpi` over that at rest.
+    pub fn largest_over_rest(&self) -> f64 {
+        let course = self.coefficient.course();
+        let of_factor = course.map_or(1.0, |course| course.largest_over_rest);
+        self.coefficient.by_rate().largest_over_rest() * of_factor
+    }
+
+    /// The slip rate at which `R` has fallen most, if it falls anywhere.
     pub fn weakest_rate(&self) -> Option<f64> {
         self.coefficient.by_rate().weakest_rate()
     }
@@ -273,11 +341,9 @@ impl Friction {
 
     /// Surfaces that must carry a texture for [`Friction::kernel`] to exist.
     pub fn required_textures(&self) -> RequiredTextures {
-        match &self.law {
-            Law::Frictionless | Law::Coulomb => RequiredTextures::Any,
-            Law::Orthotropic(_) | Law::Nap(_) | Law::Tabulated(_) => RequiredTextures::One,
-            Law::TwoTextures(_) => RequiredTextures::Both,
-            Law::Own(own) => own.law().required_textures(),
+        match (self.law.required_textures(), self.coefficient.own()) {
+            (RequiredTextures::Any, Some(factor)) => factor.law().required_textures(),
+            (textures, _) => textures,
         }
     }
 
@@ -303,6 +369,24 @@ impl Friction {
             return D::zero();
         }
         self.capped(self.coefficient.bound(pressure, slip_rate, slip))
+    }
+
+    /// The bound with a factor `F` at this pressure and slip rate:
+    /// `varpi = mu R(v) W(s) P(p) F`.
+    pub fn cap_with<D: DualNum<Primitive = f64> + Copy>(
+        &self,
+        slip: f64,
+        pressure: D,
+        slip_rate: D,
+        factor: D,
+    ) -> D {
+        if pressure.re() <= 0.0 {
+            return D::zero();
+        }
+        let bound = self
+            .coefficient
+            .bound_with(pressure, slip_rate, slip, factor);
+        self.capped(bound)
     }
 
     /// `varpi` up to the shear cap.

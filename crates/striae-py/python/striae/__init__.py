@@ -34,6 +34,7 @@ from ._errors import (
 )
 from ._fibres import ExponentialFibres, Fibres, Fibrous, LinearFibres
 from ._fit import FrictionFit, Measurements, fit_friction, read_measurements
+from ._factor import FactorPoints, FactorSlopes, StateSlopes
 from ._friction import Friction, OwnFriction, SlipSurface
 from ._gradient import differentiate
 from ._laws import *
@@ -105,6 +106,8 @@ __all__ = [
     "ElasticPlastic",
     "Energies",
     "ExponentialFibres",
+    "FactorPoints",
+    "FactorSlopes",
     "Fault",
     "Fibres",
     "Fibrous",
@@ -152,6 +155,7 @@ __all__ = [
     "Solver",
     "Spring",
     "SpringResults",
+    "StateSlopes",
     "Status",
     "Step",
     "Sweep",

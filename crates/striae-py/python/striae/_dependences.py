@@ -246,6 +246,57 @@ class Dependences(Made):
         }
         return self._with("by_state", "slip-law", "with_slip_law", values)
 
+    def with_static_kinetic(
+        self,
+        kinetic_over_static: float,
+        slip_distance: float,
+        healing_time: float,
+        state: float = 1.0,
+    ) -> Friction:
+        """Returns the law with a dependence ``by_state``, in place of another one. Coefficients
+        times ``c + (1 - c) psi``, ``d psi/dt = (1 - psi)/T - psi v/D``: friction falls with slip
+        from static to kinetic and heals exponentially at rest.
+
+        kinetic_over_static: ``c``, coefficients after long slip without healing over those healed,
+            which the law states (no unit).
+        slip_distance: ``D``, the slip over which what has healed falls to 1/e (length).
+        healing_time: ``T``, after which the difference has fallen to 1/e at rest (time).
+        state: ``psi`` at the start, from 0 for kinetic to 1 for healed (no unit).
+        """
+        values: Values = {
+            "kinetic_over_static": check.number(kinetic_over_static, "kinetic_over_static"),
+            "slip_distance": check.number(slip_distance, "slip_distance"),
+            "healing_time": check.number(healing_time, "healing_time"),
+            "state": check.number(state, "state"),
+        }
+        return self._with("by_state", "static-kinetic", "with_static_kinetic", values)
+
+    def with_logarithmic_healing(
+        self,
+        factor: float,
+        slip_distance: float,
+        healing_time: float,
+        state: float = 0.0,
+    ) -> Friction:
+        """Returns the law with a dependence ``by_state``, in place of another one. Coefficients
+        times ``1 + f ln(1 + theta/T)``, ``d theta/dt = 1 - theta v/D``: friction falls with slip
+        to kinetic and heals with the logarithm of the time at rest.
+
+        factor: ``f``, by which coefficients rise over the kinetic ones, which the law states, as
+            the time at rest grows by a factor of e (no unit).
+        slip_distance: ``D``, the slip over which what has healed falls to 1/e (length).
+        healing_time: ``T``, the time at rest from which on friction goes with the logarithm
+            (time).
+        state: ``theta`` at the start, the time that surfaces have been at rest (time).
+        """
+        values: Values = {
+            "factor": check.number(factor, "factor"),
+            "slip_distance": check.number(slip_distance, "slip_distance"),
+            "healing_time": check.number(healing_time, "healing_time"),
+            "state": check.number(state, "state"),
+        }
+        return self._with("by_state", "logarithmic-healing", "with_logarithmic_healing", values)
+
     def with_decay(self, kinetic_over_static: float, slip_rate: float) -> Friction:
         """Returns the law with a dependence ``decay``, in place of another one. Decay of friction
         from rest to fast slip, ``kinetic + (static - kinetic) exp(-rate/slip_rate)``.

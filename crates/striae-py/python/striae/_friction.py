@@ -17,6 +17,7 @@ from . import _striae as native
 from ._check import Floats, Values
 from ._dependences import Dependences
 from ._errors import refuse
+from ._factor import LARGEST_STATE, FactorFunction, Functions, StateFunction
 from ._made import Recipe, listed
 
 if TYPE_CHECKING:
@@ -68,9 +69,9 @@ class Friction(Dependences):
         accumulated_slip: Union[float, Sequence[float], Floats] = 0.0,
     ) -> Floats:
         """Largest friction at pressures, slip rates and accumulated slips (force per area): the
-        coefficient times the pressure, with all dependences and the shear cap; in steady slip,
-        if it depends on a state, and at rest as stated. In laws with a direction it is scaled
-        with their slip surface, see :meth:`slip_surface`.
+        coefficient times the pressure, with all dependences and the shear cap, without a factor
+        of :meth:`with_factor`; in steady slip, if it depends on a state, and at rest as stated. In
+        laws with a direction it is scaled with their slip surface, see :meth:`slip_surface`.
 
         pressure: one or many (force per area).
         slip_rate: one, or as many (length per time).
@@ -110,6 +111,85 @@ class Friction(Dependences):
         recipe: Recipe = (Friction.with_shear_cap, (self, cap), {})
         told = f"{self._told}.with_shear_cap({cap})"
         return Friction._of(self._native.with_shear_cap(cap), told, recipe)
+
+    def with_factor(
+        self,
+        factor: FactorFunction,
+        *,
+        name: str,
+        update: Optional[StateFunction] = None,
+        state: Sequence[float] = (),
+        textures: Literal["none", "one", "both"] = "none",
+        pressure: float = 1.0,
+        slip_rate: float = 1.0,
+        accumulated_slip: float = 1.0,
+        position: float = 1.0,
+        time: float = 1.0,
+        duration: float = 1.0,
+    ) -> Friction:
+        """Returns the law with a factor of all coefficients that a function states, in place of
+        another one and of a dependence ``by_state``.
+
+        The function is called during a run, once an evaluation of contact for all its nodes, with
+        :class:`FactorPoints`, so it has to be written for arrays. A state of its own is kept at
+        every node, through steps and continued runs, and can be written as the field
+        ``friction-state``; those of open nodes rest. ``factor`` sees the state at the end of the
+        increment, as ``update`` returns it.
+
+        Derivatives make Newton's method converge quadratically. Functions that return
+        :class:`FactorSlopes` and :class:`StateSlopes` state them; else, and by textures, they are
+        taken as central differences, with all shifted points in the same call: five times the
+        points, 23 times with textures, and relative errors of about 1e-9.
+
+        The law is held against mechanics first, at random points up to the largest values that are
+        given: the factor is not negative, its product with the pressure does not fall with the
+        pressure, its slope by the slip rate is finite at rest, both surfaces see the same factor,
+        derivatives are right, and a state neither changes in no time nor depends on how time is
+        divided. Otherwise one :class:`ModelError` says what is wrong. During a run a negative
+        factor or an exception ends the run, and the message names the law.
+
+        factor: from points to factors, of shape (n,), or :class:`FactorSlopes`.
+        name: of the law in messages; states go on under it where a step changes the law.
+        update: from points to states at the end of the increment, of shape (n, m), or
+            :class:`StateSlopes`.
+        state: state at the start, at most eight numbers.
+        textures: surfaces of which the function sees the textures.
+        pressure: largest pressure for which the law is made (force per area).
+        slip_rate: largest slip rate (length per time).
+        accumulated_slip: largest accumulated slip (length).
+        position: largest coordinate (length).
+        time: end of the run (time).
+        duration: longest increment (time).
+        """
+        for function, told in ((factor, "factor"), (update, "update")):
+            if not callable(function) and (told == "factor" or function is not None):
+                raise TypeError(f"{told}: a function of points is needed")
+        law = check.name(name, "name")
+        start = check.numbers(state, "state") if len(state) else []
+        if (update is None) != (not start):
+            raise refuse("state", "a state needs both `state` at the start and `update`")
+        if len(start) > LARGEST_STATE:
+            raise refuse("state", f"at most {LARGEST_STATE} numbers are possible")
+        which = check.word(textures, ("none", "one", "both"), "textures")
+        scales = {
+            "pressure": pressure,
+            "slip_rate": slip_rate,
+            "accumulated_slip": accumulated_slip,
+            "position": position,
+            "time": time,
+            "duration": duration,
+        }
+        ranges = [check.positive(value, path) for path, value in scales.items()]
+        functions = Functions(law, factor, update, len(start), ranges[:2])
+        found = self._native.with_factor(
+            law, functions.factors, functions.states, start, ranges, which
+        )
+        recipe: Recipe = (
+            Friction.with_factor,
+            (self, factor),
+            {"name": law, "update": update, "state": start, "textures": which, **scales},
+        )
+        return Friction._of(found, f"{self._told}.with_factor(name={law!r})", recipe)
 
     def slip_surface(self, theta: float = 0.0, count: int = 360) -> SlipSurface:
         """Friction in all directions of slip, per unit of pressure and at rest.

@@ -176,6 +176,15 @@ class Friction:
     def own(
         name: str, two: bool, harmonics: list[list[list[float]]], mu: float
     ) -> Friction: ...
+    def with_factor(
+        self,
+        name: str,
+        factors: Callable[..., _Floats],
+        states: Callable[..., _Floats],
+        initial: list[float],
+        range_: list[float],
+        textures: str,
+    ) -> Friction: ...
     def with_dependence(
         self, key: str, form: str, values: list[tuple[str, _Given]]
     ) -> Friction: ...

@@ -66,8 +66,16 @@ pub(super) fn contacts(
 }
 
 fn not_evaluated(problem: &Problem, pair: usize, collapse: Collapse) -> CutBack {
-    let (Collapse::Texture(CollapsedTexture { side, node })
-    | Collapse::Facets(CollapsedFacets { side, node })) = collapse;
+    let (side, node) = match &collapse {
+        Collapse::Texture(CollapsedTexture { side, node })
+        | Collapse::Facets(CollapsedFacets { side, node }) => (*side, *node),
+        Collapse::Factor(failure) => {
+            return CutBack::Factor {
+                pair: problem.model.pairs[pair].name.clone(),
+                failure: failure.clone(),
+            };
+        }
+    };
     let global = problem
         .surface_node(pair, side, node)
         .unwrap_or(GlobalNode(0));
@@ -76,7 +84,7 @@ fn not_evaluated(problem: &Problem, pair: usize, collapse: Collapse) -> CutBack 
     let body = problem.model.bodies[body].name.clone();
     match collapse {
         Collapse::Texture(_) => CutBack::CollapsedTexture { pair, body, node },
-        Collapse::Facets(_) => CutBack::CollapsedFacets { pair, body, node },
+        Collapse::Facets(_) | Collapse::Factor(_) => CutBack::CollapsedFacets { pair, body, node },
     }
 }
 

@@ -87,6 +87,8 @@ pub struct Imposed {
     pub rates: Vec<ImposedRate>,
     /// Time since the last converged state; infinite where nothing depends on it.
     pub elapsed: f64,
+    /// Time.
+    pub time: f64,
     /// Inertia, if the step has it.
     pub motion: Option<Motion>,
     /// Dashpots that stabilise every pair in the increment.
@@ -271,6 +273,7 @@ impl<'a> StepContext<'a> {
             gravity: self.plan.gravity.at(moment),
             rates: rates.chain(their_rates).collect(),
             elapsed: f64::INFINITY,
+            time: moment.time,
             motion: None,
             dashpots: Vec::new(),
         }

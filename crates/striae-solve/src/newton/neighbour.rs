@@ -171,6 +171,7 @@ pub(crate) fn linearise(base: &Base, workspace: &mut Workspace) -> Result<(), Cu
             .accumulated
             .clone_from(&before.tractions.accumulated);
         tractions.states.clone_from(&before.tractions.states);
+        tractions.factors.clone_from(&before.tractions.factors);
         tractions
     });
     let trial = Trial {

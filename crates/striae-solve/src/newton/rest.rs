@@ -85,7 +85,8 @@ fn evaluated<T>(found: Result<T, CutBack>) -> Result<Option<T>, CutBack> {
             CutBack::InvertedElement { .. }
             | CutBack::Load { .. }
             | CutBack::CollapsedTexture { .. }
-            | CutBack::CollapsedFacets { .. },
+            | CutBack::CollapsedFacets { .. }
+            | CutBack::Factor { .. },
         ) => Ok(None),
         Err(reason) => Err(reason),
     }

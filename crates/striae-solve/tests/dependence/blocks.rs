@@ -23,14 +23,14 @@ fn forces(run: &Run) -> [f64; 2] {
 }
 
 /// Friction and normal force in a state.
-fn force(run: &Run, state: &State) -> [f64; 2] {
+pub fn force(run: &Run, state: &State) -> [f64; 2] {
     let force = pairs(&run.problem, state)[0].sides[0].force;
     [force.xy().norm(), force.z]
 }
 
 /// A unit cube on a plane under a uniform pressure, all of its nodes moved along the plane at a
 /// speed: pressure and slip rate are the same everywhere.
-fn uniform(pressure: f64, speed: f64, friction: Friction) -> Model {
+pub fn uniform(pressure: f64, speed: f64, friction: Friction) -> Model {
     let mesh = block([0.0; 3], [1.0, 1.0, 1.0], [2, 3, 2]).mesh().unwrap();
     let mut model = model(vec![body("block", mesh, rubber(10.0, 0.0))]);
     let floor = plane([0.0; 3], [0.0, 0.0, 1.0]);

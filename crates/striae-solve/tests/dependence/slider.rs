@@ -5,7 +5,7 @@
 //! and dragged. Contact holds the plate level, so the layer is in simple shear and the plate slips
 //! as a whole: a slider on a spring `k = G/h` per area, whatever the pressure of its nodes.
 
-use striae_law::friction::{Evolution, RateAndState, StateDependence};
+use striae_law::friction::{Evolution, Friction, RateAndState, StateDependence};
 use striae_mesh::ElementId;
 use striae_solve::{
     model::{BodySection, Formulation, Model, Procedure, Step},
@@ -21,9 +21,9 @@ const EFFECTS: [f64; 2] = [0.01, 0.015];
 /// Rate at which the coefficient in steady slip is `MU`.
 const RATE: f64 = 1e-6;
 /// Shear modulus over thickness of the soft layer.
-const STIFFNESS: f64 = 5.0;
+pub const STIFFNESS: f64 = 5.0;
 /// Pressure under which the layer is, nearly.
-const PRESSURE: f64 = 1e-3;
+pub const PRESSURE: f64 = 1e-3;
 /// Thickness of the plate and of the layer.
 const THICKNESS: [f64; 2] = [0.05, 0.2];
 
@@ -44,9 +44,15 @@ fn law(evolution: Evolution, over_critical: f64) -> RateAndState {
 
 /// Motion of the upper side: rate, time and number of increments.
 #[derive(Clone, Copy)]
-struct Drag(f64, f64, usize);
+pub struct Drag(pub f64, pub f64, pub usize);
 
 fn slider(law: RateAndState, drags: &[Drag]) -> Model {
+    let state = StateDependence::rate_and_state(law).unwrap();
+    slider_with(coulomb(MU).with_state(state), drags)
+}
+
+/// The slider with any friction.
+pub fn slider_with(friction: Friction, drags: &[Drag]) -> Model {
     let [plate, layer] = THICKNESS;
     let mut mesh = block([0.0; 3], [1.0, 1.0, plate + layer], [1, 1, 2])
         .mesh()
@@ -65,9 +71,8 @@ fn slider(law: RateAndState, drags: &[Drag]) -> Model {
         density: 0.0,
     }];
     let mut model = model(vec![block]);
-    let state = StateDependence::rate_and_state(law).unwrap();
     let floor = plane([0.0; 3], [0.0, 0.0, 1.0]);
-    model.touch_rigid(("block", "zmin"), floor, coulomb(MU).with_state(state));
+    model.touch_rigid(("block", "zmin"), floor, friction);
     let depth = PRESSURE * layer / 2.0;
     let to = |x: f64, model: &Model| {
         vec![model.hold("block", "zmax", [Some(x), Some(0.0), Some(-depth)])]
@@ -92,7 +97,7 @@ fn slider(law: RateAndState, drags: &[Drag]) -> Model {
 }
 
 /// Friction over pressure after every increment but the first, which presses.
-fn coefficients(run: &Run) -> Vec<f64> {
+pub fn coefficients(run: &Run) -> Vec<f64> {
     assert!(run.cuts.is_empty(), "{:?}", run.cuts);
     let states = run.states[2..].iter();
     let of = |state| {
@@ -103,7 +108,7 @@ fn coefficients(run: &Run) -> Vec<f64> {
 }
 
 /// Pressure in a run.
-fn pressure(run: &Run) -> f64 {
+pub fn pressure(run: &Run) -> f64 {
     pairs(&run.problem, run.last())[0].sides[0].force.z
 }
 

@@ -2,7 +2,10 @@
 
 use striae_contact::pair::Enforcement;
 use striae_law::bulk::{Hyperelastic, Isochoric, Material, Volumetric};
-use striae_law::friction::Friction;
+use striae_law::friction::{
+    Evolution, FactorLane, FactorLaw, FactorPoint, FactorRange, Friction, Healing, HealingCourse,
+    OwnFactor, RateAndState, StateDependence,
+};
 use striae_mesh::{CellKind, Vec3, generate::Block};
 use striae_solve::model::{Axes, Formulation, LoadExtent, LoadKind, Model};
 use striae_surface::texture::{Field, Lines, Paint};
@@ -54,6 +57,65 @@ fn blocks_that_wear() {
     let told = assert_same(&model);
     let worn = told.numbers.iter().find(|(name, _)| name == "worn");
     assert!(worn.unwrap().1.iter().all(|volume| *volume > 0.0));
+}
+
+#[test]
+fn blocks_with_states_of_friction() {
+    let rate_and_state = StateDependence::rate_and_state(RateAndState {
+        evolution: Evolution::Ageing,
+        direct_effect: 0.02,
+        evolution_effect: 0.015,
+        slip_rate: 0.1,
+        slip_distance: 0.03,
+        state: 0.5,
+    });
+    let healing = StateDependence::healing(Healing {
+        course: HealingCourse::Exponential {
+            kinetic_over_static: 0.8,
+        },
+        slip_distance: 0.05,
+        healing_time: 1.0,
+        state: 1.0,
+    });
+    for state in [rate_and_state, healing] {
+        let friction = coulomb(0.3).with_state(state.unwrap());
+        let told = assert_same(&two_blocks_of(CellKind::Hexahedron, friction));
+        assert!(told.increments.len() >= 5);
+    }
+}
+
+/// Friction that grows with the time in contact and with the place.
+#[derive(Debug)]
+struct Aged;
+
+impl FactorLaw for Aged {
+    fn name(&self) -> &str {
+        "aged"
+    }
+
+    fn range(&self) -> FactorRange {
+        FactorRange::default()
+    }
+
+    fn initial_state(&self) -> Vec<f64> {
+        vec![0.0]
+    }
+
+    fn state_after(&self, at: &FactorPoint, before: &[f64]) -> Vec<FactorLane> {
+        vec![FactorLane::from(before[0] + at.elapsed)]
+    }
+
+    fn factor(&self, at: &FactorPoint, state: &[FactorLane]) -> FactorLane {
+        (state[0] * 0.1 + 1.0) * (1.0 + 0.2 * at.position.x * at.position.x)
+    }
+}
+
+#[test]
+fn blocks_with_a_factor_of_ones_own() {
+    let factor = OwnFactor::of(Aged).unwrap();
+    let friction = coulomb(0.3).with_factor(factor).unwrap();
+    let told = assert_same(&two_blocks_of(CellKind::Hexahedron, friction));
+    assert_eq!(told.increments.len(), 5);
 }
 
 #[test]

@@ -19,6 +19,7 @@ mod worn;
 mod cavities;
 mod contact;
 mod creeping;
+mod factored;
 mod guided;
 mod springs;
 mod system;

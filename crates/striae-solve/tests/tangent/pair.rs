@@ -137,6 +137,7 @@ impl<'a> PairFunction<'a> {
             accumulated: self.counts.map(|count| vec![0.1; count]),
             worn: self.counts.map(|count| vec![0.0; count]),
             states: self.counts.map(|count| vec![0.7; count]),
+            factors: None,
             // Every other one, so that both terms of the ramp count.
             stuck: self
                 .counts

@@ -2,7 +2,9 @@
 
 use std::f64::consts::PI;
 
-use striae_law::friction::{Friction, Law, RateAndState, RequiredTextures};
+use striae_law::friction::{
+    Coefficient, Friction, Healing, HealingCourse, Law, RateAndState, RequiredTextures,
+};
 use striae_model::{Model, Pair};
 
 use super::{Advice, Topic};
@@ -108,6 +110,25 @@ fn of_dependences(name: &str, when: &str, friction: &Friction, advice: &mut Advi
     if let Some(law) = friction.rate_and_state() {
         advice.note(Topic::Friction, name, of_state(name, when, law));
     }
+    if let Some(law) = coefficient.by_state().of_healing() {
+        advice.note(
+            Topic::Friction,
+            name,
+            of_healing(name, when, coefficient, law),
+        );
+    }
+    if let Some(factor) = coefficient.own() {
+        let law = factor.law().name();
+        let course = match factor.steepest_fall() > 0.0 {
+            true => format!(
+                "falls with the slip of an increment by up to {:.4e} times the pressure per length; bodies that resist with less, per area, may jump from stick to slip within an increment",
+                coefficient.at_rest() * factor.steepest_fall()
+            ),
+            false => "does not fall with the slip of an increment".to_owned(),
+        };
+        let text = format!("pair `{name}`: friction{when} with the factor `{law}` {course}");
+        advice.note(Topic::Friction, name, text);
+    }
     if let Some([from, to]) = by_pressure.falling() {
         let text = format!(
             "pair `{name}`: friction{when} falls as the pressure rises from {from} to {to}, since factors fall faster than 1/p there; increments may have several solutions. Unless this is measured, make factors times pressures ascend"
@@ -144,6 +165,27 @@ fn of_state(name: &str, when: &str, law: &RateAndState) -> String {
     };
     format!(
         "pair `{name}`: friction{when} depends on rate and state and {course}. Slip in an increment should be some tenths of D = {slip_distance:.4e}, and steps must have their true durations"
+    )
+}
+
+/// Text on friction that falls with slip and heals: its extremes, and what increments need.
+fn of_healing(name: &str, when: &str, coefficient: &Coefficient, law: &Healing) -> String {
+    let course = match law.course {
+        HealingCourse::Exponential {
+            kinetic_over_static,
+        } => format!(
+            "falls with slip to {kinetic_over_static:.4} of that stated and heals at rest in the time {:.4e}",
+            law.healing_time
+        ),
+        HealingCourse::Logarithmic { factor } => format!(
+            "rises at rest by {factor:.4} of that stated for each factor of e of the time, from {:.4e} on, and falls with slip",
+            law.healing_time
+        ),
+    };
+    format!(
+        "pair `{name}`: friction{when} {course}. Bodies that resist with less than {:.4e} times the pressure, per area, may jump from stick to slip within an increment; slip in an increment should be some tenths of D = {:.4e}, and steps must have their true durations",
+        coefficient.at_rest() * law.largest_weakening(),
+        law.slip_distance
     )
 }
 

@@ -64,11 +64,7 @@ pub fn coefficients(friction: &Friction, analyses: &[Analysis]) -> Figure {
 pub fn dependence(friction: &Friction) -> Option<Figure> {
     let coefficient = friction.coefficient();
     let (mu, by_pressure) = (coefficient.at_rest(), coefficient.by_pressure());
-    let curve = |last: f64, value: &dyn Fn(f64) -> f64| {
-        let points = (1..=POINTS).map(|i| last * f64::from(i) / f64::from(POINTS));
-        let points = points.map(|x| [x, value(x)]).collect();
-        Series::new(friction.law().name(), Content::line(points))
-    };
+    let curve = |last: f64, value: &dyn Fn(f64) -> f64| curve(friction, last, value);
     let mut panels = Vec::new();
     if let Some(last) = by_pressure.scale() {
         let capped = |p: f64| friction.cap(p, 0.0) / p;
@@ -86,12 +82,28 @@ pub fn dependence(friction: &Friction) -> Option<Figure> {
         let curve = curve(100.0 * law.slip_rate, &at_rate);
         panels.push(panel.with(curve).titled("slip rate, steady"));
     }
+    if let Some(law) = coefficient.by_state().of_healing() {
+        let at_rate = |v: f64| coefficient.at_slip_rate(v);
+        let panel = Panel::new(Axis::linear("v", ""), Axis::linear("μ H", ""));
+        let curve = curve(20.0 * law.slip_distance / law.healing_time, &at_rate);
+        panels.push(panel.with(curve).titled("slip rate, steady"));
+        let rested = |t: f64| mu * law.factor(law.state_after(0.0, 0.0, t));
+        let panel = Panel::new(Axis::linear("t", ""), Axis::linear("μ H", ""));
+        let curve = self::curve(friction, 10.0 * law.healing_time, &rested);
+        panels.push(panel.with(curve).titled("time at rest"));
+    }
     if let Some(last) = coefficient.by_slip().scale() {
         let after = |s: f64| mu * coefficient.by_slip().at(s);
         let panel = Panel::new(Axis::linear("s", ""), Axis::linear("μ W(s)", ""));
         panels.push(panel.with(curve(last, &after)).titled("accumulated slip"));
     }
     (mu > 0.0 && !panels.is_empty()).then(|| Figure::new(Width::Page, panels))
+}
+
+fn curve(friction: &Friction, last: f64, value: &dyn Fn(f64) -> f64) -> Series {
+    let points = (1..=POINTS).map(|i| last * f64::from(i) / f64::from(POINTS));
+    let points = points.map(|x| [x, value(x)]).collect();
+    Series::new(friction.law().name(), Content::line(points))
 }
 
 /// Slip surfaces and friction times `mu`, over what is called `unit`.

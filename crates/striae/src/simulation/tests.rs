@@ -3,6 +3,12 @@
 use std::{collections::BTreeMap, fs, path::PathBuf};
 
 use serde_json::Value;
+use striae_deck::Reader;
+use striae_law::{
+    Laws,
+    declared::{Declared, NO_UNIT, POSITIVE, Parameter},
+    friction::{FactorLane, FactorLaw, FactorPoint, FactorRange, Friction, OwnFactor},
+};
 use striae_output::{Existing, recorder::Recorder};
 
 use super::*;
@@ -62,15 +68,14 @@ fn summary(folder: &Path) -> Value {
 
 /// Runs a deck in one piece and in pieces of one attempt each; returns its summary.
 fn assert_same_in_pieces(text: &str, least: usize) -> Value {
+    assert_same_deck_in_pieces(&read(text), least)
+}
+
+fn assert_same_deck_in_pieces(deck: &Deck, least: usize) -> Value {
     let place = tempfile::tempdir().unwrap();
     let [whole, pieces] = ["whole", "pieces"].map(|name| place.path().join(name));
-    let deck = read(text);
-    begun(&deck, &whole).run().unwrap();
-    let mut ending = begun(&deck, &pieces)
-        .until(&at_once())
-        .run()
-        .unwrap()
-        .ending;
+    begun(deck, &whole).run().unwrap();
+    let mut ending = begun(deck, &pieces).until(&at_once()).run().unwrap().ending;
     let mut stops = 0;
     while let Ending::Interrupted { .. } = ending {
         stops += 1;
@@ -125,6 +130,79 @@ fn a_run_of_sides_that_wear_is_the_same_in_pieces() {
     let text = QUASI_STATIC.replace(pair, &format!("{pair}wear = {{ a = 2e-7, b = 1e-7 }}\n"));
     assert_ne!(text, QUASI_STATIC);
     assert_same_in_pieces(&text, 10);
+}
+
+/// The quasi-static deck with other friction.
+fn with_friction(friction: &str) -> String {
+    let before = "law = \"orthotropic\", mu_along = 0.2, mu_across = 0.4";
+    assert!(QUASI_STATIC.contains(before));
+    QUASI_STATIC.replace(before, friction)
+}
+
+#[test]
+fn runs_with_a_state_of_friction_are_the_same_in_pieces() {
+    let law = "law = \"orthotropic\", mu_along = 0.2, mu_across = 0.4";
+    for by_state in [
+        "form = \"ageing-law\", direct_effect = 0.02, evolution_effect = 0.015, \
+         slip_rate = 0.1, slip_distance = 0.03",
+        "form = \"static-kinetic\", kinetic_over_static = 0.8, slip_distance = 0.05, \
+         healing_time = 1",
+        "form = \"logarithmic-healing\", factor = 0.1, slip_distance = 0.05, healing_time = 0.1",
+    ] {
+        let text = with_friction(&format!("{law}, by_state = {{ {by_state} }}"));
+        let summary = assert_same_in_pieces(&text, 4);
+        assert!(summary["increments"].as_u64().unwrap() > 5);
+    }
+}
+
+/// A film that builds up with the time in contact and wears off with slip.
+#[derive(Debug)]
+struct Film;
+
+impl FactorLaw for Film {
+    fn name(&self) -> &str {
+        "film"
+    }
+
+    fn range(&self) -> FactorRange {
+        FactorRange {
+            pressure: 1e6,
+            ..FactorRange::default()
+        }
+    }
+
+    fn initial_state(&self) -> Vec<f64> {
+        vec![0.0, 0.5]
+    }
+
+    fn state_after(&self, at: &FactorPoint, before: &[f64]) -> Vec<FactorLane> {
+        let formed = at.elapsed / 0.7;
+        let film = (FactorLane::from(formed + before[0])) / (at.slip() / 0.2 + (1.0 + formed));
+        vec![film, at.slip() * 0.1 + before[1]]
+    }
+
+    fn factor(&self, at: &FactorPoint, state: &[FactorLane]) -> FactorLane {
+        (state[0] * 0.2 + 1.0) * (state[1] * 0.1 + 0.95 + 0.01 * at.time)
+    }
+}
+
+static FILM: Declared<Friction> = Declared {
+    name: "film",
+    summary: "Coulomb friction under a film.",
+    parameters: &[Parameter::number("mu", POSITIVE, NO_UNIT, "Coefficient.")],
+    build: |values| {
+        let factor = OwnFactor::of(Film)?;
+        Friction::coulomb(values.number("mu"))?.with_factor(factor)
+    },
+    fit: None,
+};
+
+#[test]
+fn a_run_with_a_state_of_ones_own_is_the_same_in_pieces() {
+    let laws = Laws::default().with_friction(&FILM);
+    let text = with_friction("law = \"film\", mu = 0.3");
+    let deck = Reader::new(&laws, &[]).parse(&text, "deck.toml", Path::new(""));
+    assert_same_deck_in_pieces(&deck.unwrap(), 4);
 }
 
 #[test]

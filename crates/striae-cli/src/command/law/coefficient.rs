@@ -18,13 +18,15 @@ pub(super) fn coefficient(friction: &Friction) -> String {
     let by_pressure = mu.by_pressure().is_some();
     let by_rate = mu.by_rate().is_some() && !decay;
     let by_slip = mu.by_slip().is_some();
-    let by_state = mu.by_state().is_some();
+    let by_state = mu.by_state().constants().is_some();
+    let healing = mu.by_state().of_healing();
     words += ", varpi = mu";
     words += match (by_rate, by_state) {
         (true, _) => " R(v)",
         (false, true) => "(v, theta)",
         (false, false) => "",
     };
+    words += if healing.is_some() { " H" } else { "" };
     words += if by_slip { " W(s)" } else { "" };
     words += if by_pressure { " P(p)" } else { " p" };
     if let Some(cap) = friction.shear_cap() {
@@ -35,6 +37,9 @@ pub(super) fn coefficient(friction: &Friction) -> String {
     }
     if by_state {
         words += &format!("\n  rate and state: mu(v, theta) = {}", mu.by_state());
+    }
+    if let Some(healing) = healing {
+        words += &format!("\n  slip and time: H = {healing}");
     }
     if by_slip {
         words += &format!("\n  accumulated slip: W(s) = {}", mu.by_slip());

@@ -2,9 +2,10 @@
 
 use num_dual::Dual64;
 
+use super::laws_of_all_kinds;
 use crate::friction::{
     Decay, Friction, FrictionError, Logarithm, PressureDependence, RateDependence, SlipDependence,
-    SlipRule, battery,
+    battery,
 };
 
 fn decay(kinetic_over_static: f64, slip_rate: f64, exponent: f64, viscous: f64) -> RateDependence {
@@ -66,17 +67,16 @@ fn all_dependences_pass_the_battery_together() {
 }
 
 #[test]
-fn all_laws_pass_the_battery_with_dependent_coefficients() {
-    for law in [
-        Friction::coulomb(0.3),
-        Friction::orthotropic(0.2, 0.7, SlipRule::Associated),
-        Friction::two_textures(0.5, 0.1, 0.1, 0.5),
-        Friction::tabulated(&[0.0, 1.5, 3.0, 4.5], &[0.3, 0.15, 0.1, 0.2]),
-    ] {
-        let pressure = PressureDependence::power_law(2.0 / 3.0, 5.0, None).unwrap();
-        let friction = law.unwrap().with_pressure(pressure);
-        let friction = friction.with_rate(decay(0.4, 0.7, 2.0, 0.1));
-        assert_eq!(battery(&friction), [], "{:?}", friction.law());
+fn all_laws_pass_the_battery_with_all_dependences() {
+    for law in laws_of_all_kinds() {
+        for pressure in by_pressure() {
+            for rate in by_rate() {
+                let slip = SlipDependence::exponential(1.5, 0.1).unwrap();
+                let friction = law.clone().with_pressure(pressure.clone());
+                let friction = friction.with_rate(rate.clone()).with_slip(slip);
+                assert_eq!(battery(&friction), [], "{friction:?}");
+            }
+        }
     }
 }
 

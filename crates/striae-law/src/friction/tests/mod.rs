@@ -5,6 +5,8 @@ mod coefficient;
 mod declared;
 mod dependence;
 mod errata;
+mod factor;
+mod healing;
 mod laws;
 mod own;
 mod reference;
@@ -14,7 +16,21 @@ mod tabulated;
 
 use nalgebra::Vector3;
 
-use super::{Ellipse, Kernel, SlipSample};
+use super::{Ellipse, Friction, Kernel, SlipRule, SlipSample};
+
+/// A law of every kind with friction.
+fn laws_of_all_kinds() -> Vec<Friction> {
+    let laws = [
+        Friction::coulomb(0.3),
+        Friction::nap(0.11, 0.14, 0.2),
+        Friction::orthotropic(0.2, 0.7, SlipRule::Opposing),
+        Friction::orthotropic(0.2, 0.7, SlipRule::Associated),
+        Friction::two_textures(0.5, 0.1, 0.1, 0.5),
+        Friction::tabulated(&[0.0, 1.5, 3.0, 4.5], &[0.3, 0.15, 0.1, 0.2]),
+    ];
+    laws.map(|law| law.expect("the constants are in range"))
+        .into()
+}
 
 /// Points at equal angles, dense enough for brute force.
 fn dense(surface: &Ellipse) -> Vec<SlipSample> {

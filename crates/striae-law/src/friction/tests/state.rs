@@ -3,9 +3,10 @@
 use nalgebra::DVector;
 use striae_verify::assert_directional;
 
+use super::laws_of_all_kinds;
 use crate::friction::{
     Creep, Evolution, Friction, FrictionError, Past, PressureDependence, RateAndState,
-    SlipDependence, SlipRule, StateDependence, battery,
+    SlipDependence, StateDependence, battery,
 };
 
 const MU: f64 = 0.6;
@@ -241,15 +242,9 @@ fn friction_never_falls_faster_with_slip_than_stated() {
 
 #[test]
 fn all_laws_pass_the_battery_with_a_state() {
-    for law in [
-        Friction::coulomb(0.3),
-        Friction::nap(0.11, 0.14, 0.2),
-        Friction::orthotropic(0.2, 0.7, SlipRule::Associated),
-        Friction::two_textures(0.5, 0.1, 0.1, 0.5),
-        Friction::tabulated(&[0.0, 1.5, 3.0, 4.5], &[0.3, 0.15, 0.1, 0.2]),
-    ] {
+    for law in laws_of_all_kinds() {
         for evolution in BOTH {
-            let friction = law.clone().unwrap().with_state(dependence(evolution));
+            let friction = law.clone().with_state(dependence(evolution));
             assert_eq!(battery(&friction), [], "{:?}", friction.law());
         }
     }
