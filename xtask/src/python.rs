@@ -22,11 +22,12 @@ const NEWEST: u32 = 19;
 const ASKED: &str = "import sys, venv, ensurepip; print(sys.version_info[1])";
 /// Packages that the tests need besides the wheel: the last ones are finite-element programs to
 /// which examples give contact.
-const NEEDED: [&str; 9] = [
+const NEEDED: [&str; 10] = [
     "pytest",
     "numpy",
     "matplotlib",
     "pandas",
+    "xarray",
     "meshio",
     "scipy",
     "scikit-fem",
