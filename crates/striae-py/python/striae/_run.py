@@ -203,7 +203,8 @@ class Run(Sequence[Increment]):
     def to_xarray(self) -> Dataset:
         """The history and the fields of kept increments as a dataset of xarray.
 
-        Columns of the history lie over ``increment``. Fields lie over ``state``, the kept
+        Columns of the history lie over ``increment``, its time and step as ``history.time`` and
+        ``history.step``. Fields lie over ``state``, the kept
         increments, whose ``time`` and ``step`` are coordinates: of bodies ``BODY.displacement``,
         ``BODY.contact_force``, ``BODY.stress`` and ``BODY.von_mises`` over ``BODY.node``, of the
         deformable sides of pairs ``PAIR.a.pressure``, ``gap``, ``friction``, ``slip`` and
