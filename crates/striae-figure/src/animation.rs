@@ -184,10 +184,8 @@ impl Changed {
     /// Numbers of the colours of a palette.
     fn numbers(&self, before: Option<&Dots>, dots: &Dots, palette: &mut Palette) -> Vec<u8> {
         let columns = dots.size()[0];
-        let places = self.rows.clone().flat_map(|row| {
-            let columns = self.columns.clone().map(move |c| row * columns + c);
-            columns
-        });
+        let row = |row: usize| self.columns.clone().map(move |c| row * columns + c);
+        let places = self.rows.clone().flat_map(row);
         let number = |at: usize| {
             let dot = dots.all()[at];
             match before {
