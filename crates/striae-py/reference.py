@@ -1,6 +1,7 @@
 """Writes ``docs/book/reference/python.md`` from signatures and docstrings of the package:
 ``python crates/striae-py/reference.py``, with the package installed."""
 
+import enum
 import inspect
 from itertools import takewhile
 from pathlib import Path
@@ -31,6 +32,17 @@ def members(of: type) -> list[tuple[str, object]]:
     return [(name, member) for name, member in listed if says_more(member)]
 
 
+def made(name: str, of: type) -> list[str]:
+    """Arguments of a class that users make objects of, with their defaults and explanations."""
+    words = inspect.getdoc(of.__init__) or ""
+    apart = issubclass(of, (tuple, BaseException, enum.Enum)) or of in (st.Condition, st.FrictionFit)
+    if apart or not inspect.isfunction(of.__init__) or words.startswith("Use "):
+        return []
+    listed = list(inspect.signature(of.__init__).parameters.values())[1:]
+    bare = [one.replace(annotation=inspect.Parameter.empty) for one in listed]
+    return [f"**`{name}{inspect.Signature(bare)}`**\n", quoted(of.__init__)]
+
+
 def says_more(member: object) -> bool:
     """Returns whether the docstring is one of the package's own."""
     words = inspect.getdoc(member) or ""
@@ -49,6 +61,7 @@ def written() -> str:
         parts.append(f"## {name}\n")
         parts.append(quoted(thing))
         if inspect.isclass(thing):
+            parts += made(name, thing)
             for member, value in members(thing):
                 parts.append(f"**`{name}.{member}`**\n")
                 parts.append(quoted(value))

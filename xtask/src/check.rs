@@ -1,5 +1,5 @@
-//! `cargo xtask check`: formatting, borders, lints, documentation, tests, examples and,
-//! where there is Python, its package.
+//! `cargo xtask check`: formatting, borders, lints, documentation, tests, examples,
+//! packages and, where there is Python, its package.
 //!
 //! Cheap checks come first. Everything is built in the release profile, so that
 //! one compilation of the dependencies serves tests and programs, and another,
@@ -57,6 +57,28 @@ const BUILT: [Stage; 3] = [
     },
 ];
 
+/// Packages of the crates that other programs use: contact alone, and what it needs.
+const PACKAGES: Stage = Stage {
+    name: "packages",
+    arguments: &[
+        "package",
+        "--no-verify",
+        "--allow-dirty",
+        "--quiet",
+        "--package",
+        "striae-verify",
+        "--package",
+        "striae-mesh",
+        "--package",
+        "striae-law",
+        "--package",
+        "striae-surface",
+        "--package",
+        "striae-contact",
+    ],
+    environment: &[],
+};
+
 /// Runs all checks, up to the first that fails.
 ///
 /// # Errors
@@ -69,6 +91,7 @@ pub fn check() -> Result<(), Fault> {
         timed(stage.name, || run(stage))?;
     }
     timed("examples", examples)?;
+    timed(PACKAGES.name, || run(&PACKAGES))?;
     if python::is_possible() {
         timed("python", python::check)?;
     } else {

@@ -2,7 +2,8 @@
 //!
 //! The tools are installed from PyPI into a virtual environment in the target folder, maturin
 //! builds the wheel, and the wheel is tested as users install it: types, docstrings, wrong uses,
-//! runs, whose bits are those of the program, and examples. Where several versions of Python are at
+//! runs, whose bits are those of the program, and examples; and in a fresh environment that has
+//! nothing but the wheel, on an empty path, without Rust. Where several versions of Python are at
 //! hand, on the path or by pyenv, the tests run with the oldest and the newest, by the same wheel.
 //! The cost of a callback is measured by `crates/striae-py/overhead.py`.
 
@@ -22,11 +23,12 @@ const NEWEST: u32 = 19;
 const ASKED: &str = "import sys, venv, ensurepip; print(sys.version_info[1])";
 /// Packages that the tests need besides the wheel: the last ones are finite-element programs to
 /// which examples give contact.
-const NEEDED: [&str; 9] = [
+const NEEDED: [&str; 10] = [
     "pytest",
     "numpy",
     "matplotlib",
     "pandas",
+    "xarray",
     "meshio",
     "scipy",
     "scikit-fem",
@@ -55,6 +57,7 @@ pub fn check() -> Result<(), Fault> {
     cargo::program()?;
     pip(&main, &["pyvista"])?;
     test(&main, &wheels)?;
+    alone(newest, &wheels)?;
     run(main.join("mypy"), &[])?;
     let interpreter = main.join("python").display().to_string();
     let here = ["--project", "pyproject.toml", "--pythonpath", &interpreter];
@@ -124,6 +127,38 @@ fn test(programs: &Path, wheels: &Path) -> Result<(), Fault> {
     let place = ["--find-links", from.as_str(), "striae"];
     run(programs.join("pip"), &[&wheel[..], &place].concat())?;
     run(programs.join("pytest"), &["--quiet"])
+}
+
+/// Installs the wheel as users do, into a fresh environment with nothing but what it depends on,
+/// and runs a model there without a path to other programs; the wheel is fit to be published.
+fn alone(interpreter: &Interpreter, wheels: &Path) -> Result<(), Fault> {
+    let folder = target().join("python").join("alone");
+    let place = folder.display().to_string();
+    let arguments = ["-m", "venv", "--clear", &place];
+    run(interpreter.program.clone(), &arguments)?;
+    let programs = folder.join("bin");
+    let from = wheels.display().to_string();
+    pip(&programs, &["--find-links", &from, "striae"])?;
+    // Without the path there is no Rust and no compiler.
+    let script = ["-I", "crates/striae-py/alone.py"];
+    cargo::run(&programs.join("python"), &script, &[("PATH", "")])?;
+    pip(&programs, &["twine"])?;
+    let wheel = newest_wheel(wheels)?.display().to_string();
+    run(programs.join("twine"), &["check", "--strict", &wheel])
+}
+
+/// The wheel that was built last.
+fn newest_wheel(wheels: &Path) -> Result<PathBuf, Fault> {
+    let unreadable = |cause| Fault::Unreadable {
+        path: wheels.to_owned(),
+        cause,
+    };
+    let files = fs::read_dir(wheels).map_err(unreadable)?.flatten();
+    let files = files.map(|file| file.path());
+    let built = files.filter(|path| path.extension().is_some_and(|end| end == "whl"));
+    let time = |path: &PathBuf| fs::metadata(path).and_then(|of| of.modified()).ok();
+    let none = || unreadable(std::io::ErrorKind::NotFound.into());
+    built.max_by_key(time).ok_or_else(none)
 }
 
 /// Folder of the programs of a virtual environment, which is made if it is not there.

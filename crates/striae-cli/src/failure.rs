@@ -196,6 +196,7 @@ impl Failure {
                 ReportError::Nothing(_)
                 | ReportError::Field { .. }
                 | ReportError::Component { .. }
+                | ReportError::Animation(_)
                 | ReportError::View,
             )
             | Self::Results(OutputError::Occupied(_) | OutputError::InUse(_))

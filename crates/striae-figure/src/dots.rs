@@ -49,6 +49,11 @@ impl Dots {
         &mut self.dots[row * self.size[0] + column]
     }
 
+    /// All dots, row by row.
+    pub(super) fn all(&self) -> &[Dot] {
+        &self.dots
+    }
+
     /// Writes words in black, whose base line begins at a place.
     pub fn write_words(&mut self, words: &str, place: [f64; 2], size: f64) {
         let style = TextStyle {

@@ -23,6 +23,7 @@
 //! # Ok(()) }
 //! ```
 
+mod animation;
 mod arrows;
 mod axis;
 mod color;
@@ -35,6 +36,7 @@ mod font;
 mod frame;
 mod layout;
 mod legend;
+mod palette;
 mod panel;
 mod polar;
 mod render;
@@ -44,6 +46,7 @@ mod table;
 mod tests;
 mod ticks;
 
+pub use animation::{Animation, Moving};
 pub use color::Color;
 pub use description::{
     Aspect, Axis, Content, Figure, Frame, Limits, Line, Marker, Panel, Scale, Series, Width,

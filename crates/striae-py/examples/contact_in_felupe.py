@@ -51,7 +51,7 @@ solver = st.Solver(tolerance=1e-12)
 model = st.Model([body], [floor], [st.Pair(body["zmin"], floor, law)], solver=solver)
 model.step("press", body["zmax"].displace(x=0, y=0, z=-0.003), increments=PRESS)
 model.step("drag", body["zmax"].displace(x=0.02), increments=DRAG)
-own = np.array([one.pair(0).force for one in model.run()])
+own = np.array([one.pair(0).force for one in model.run(keep="all")])
 difference = np.abs(own - forces).max() / np.abs(own).max()
 print(f"largest difference from striae's own run: {difference:.1e}")
 assert difference < 1e-8

@@ -63,7 +63,7 @@ model = st.Model(bodies, [], [pair], solver=st.Solver(tolerance=1e-12))
 clamp, press = bodies[0]["zmin"].hold(), bodies[1]["zmax"].displace(x=0, y=0, z=-0.01)
 model.step("press", clamp, press, increments=PRESS)
 model.step("shear", bodies[1]["zmax"].displace(x=0.03), increments=SHEAR)
-own = np.array([one.pair(0).force for one in model.run()])
+own = np.array([one.pair(0).force for one in model.run(keep="all")])
 difference = np.abs(own - forces).max() / np.abs(own).max()
 print(f"largest difference from striae's own run: {difference:.1e}")
 assert difference < 1e-8

@@ -1,5 +1,7 @@
 //! Faults of the library as the exceptions of the package.
 
+use std::any::Any;
+
 use pyo3::{
     exceptions::{PyMemoryError, PyRuntimeError},
     prelude::*,
@@ -60,4 +62,14 @@ pub fn raised(error: Error, place: &str) -> PyErr {
         | Error::Moduli(_)
         | Error::Rubber(_) => refused(place, error),
     }
+}
+
+/// The exception for a broken invariant of the library: Python's programs catch no panics.
+pub fn broken(panic: &(dyn Any + Send)) -> PyErr {
+    let text = panic.downcast_ref::<String>().map(String::as_str);
+    let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
+    let text = text.unwrap_or("it gives no reason");
+    PyRuntimeError::new_err(format!(
+        "the run failed by a fault of striae, which is worth a report with the model: {text}"
+    ))
 }

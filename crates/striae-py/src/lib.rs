@@ -55,7 +55,7 @@ mod _striae {
         pair::Pair,
         results::Results,
         rigid::Rigid,
-        run::files::report,
+        run::files::{picture, report},
         run::returned::returned,
         run::{Run, deck_of, resume, run},
         spring::Spring,

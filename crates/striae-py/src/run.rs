@@ -30,7 +30,7 @@ use striae::{
 
 use crate::{
     array::Array2,
-    fault::raised,
+    fault::{broken, raised},
     listen::{Callback, listen},
     model::Model,
     own_factor::raised_in,
@@ -153,7 +153,7 @@ impl Run {
         }
     }
 
-    /// Writes the files of the program, of a run whose increments are all kept.
+    /// Writes the files of the program, with fields of the states that are kept.
     fn write(
         &self,
         py: Python<'_>,
@@ -340,9 +340,7 @@ fn watched(
                 answer,
             });
             let stopped = listen(callback.as_ref(), &ended, &interrupt, &listened);
-            let outcome = worker
-                .join()
-                .unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+            let outcome = worker.join().map_err(|panic| broken(&*panic))?;
             Ok::<_, PyErr>((outcome, stopped))
         })
     })?;

@@ -228,7 +228,7 @@ def test_curves_and_increment_sizes(pad: st.Body) -> None:
     pull = pad["zmax"].displace(z=0.1, curve=curve)
     sizes = st.Increments(0.25, smallest=0.01, largest=0.25)
     model.step("pull", pad["zmin"].hold(), pull, increments=sizes, duration=4)
-    run = model.run()
+    run = model.run(keep="all")
     top = pad.mesh.node_sets["zmax"][0]
     found = [increment.body("pad").displacement[top, 2] for increment in run]
     assert np.allclose(found, [0.05, 0.1, 0.0625, 0.025])

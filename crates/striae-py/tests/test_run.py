@@ -19,7 +19,7 @@ ROOT = Path(__file__).parents[3]
 
 
 def test_friction_across_the_grooves_is_that_of_the_law(model: st.Model) -> None:
-    run = model.run()
+    run = model.run(keep="all")
     assert run.ending == "completed" and run.reason == "all steps completed"
     force = run[-1].pair(0).force
     assert force[1] / force[2] == pytest.approx(-0.4, abs=1e-3)
@@ -82,10 +82,12 @@ def test_an_array_outlives_its_run(model: st.Model) -> None:
 
 
 @pytest.mark.parametrize(
-    "keep, numbers", [("all", list(range(1, 8))), ("steps", [2, 7]), ("last", [7]), (3, [3, 6, 7])]
+    "keep, numbers", [("steps", [2, 7]), ("all", list(range(1, 8))), ("last", [7]), (3, [3, 6, 7])]
 )
 def test_states_are_kept_by_choice(model: st.Model, keep: str, numbers: list[int]) -> None:
     assert [increment.number for increment in model.run(keep=keep)] == numbers
+    if keep == "steps":
+        assert [increment.number for increment in model.run()] == numbers
 
 
 def test_the_history_is_a_table(model: st.Model) -> None:
@@ -109,7 +111,7 @@ def test_the_callback_sees_each_increment_and_stops_the_run(model: st.Model) -> 
         assert threading.current_thread() is threading.main_thread()
         return increment.number < 3
 
-    run = model.run(told)
+    run = model.run(told, keep="all")
     assert [number for number, _ in seen] == [1, 2, 3]
     assert run.ending == "interrupted" and len(run) == 3
     assert seen[-1][1] == run[-1].pair(0).force[2]
@@ -121,7 +123,7 @@ def test_an_exception_of_the_callback_ends_the_run(model: st.Model, tmp_path: Pa
             raise ZeroDivisionError("of my own")
 
     with pytest.raises(ZeroDivisionError, match="of my own"):
-        model.run(told, output=tmp_path)
+        model.run(told, output=tmp_path, keep="all")
     assert model.last_run is not None and len(model.last_run) == 2
     assert len((tmp_path / "history.csv").read_text().splitlines()) == 3
 
@@ -215,7 +217,7 @@ def test_two_blocks_has_the_bits_of_the_program(tmp_path: Path) -> None:
 
 def test_a_recorded_run_of_a_deck_is_resumed_to_the_same_history(tmp_path: Path) -> None:
     model = st.Model.from_deck(ROOT / "cases" / "two-blocks" / "deck.toml")
-    whole = model.run(output=tmp_path / "whole", fields_every=0)
+    whole = model.run(output=tmp_path / "whole", fields_every=0, keep="all")
     stopped = model.run(lambda i: i.number < 7, output=tmp_path / "pieces", fields_every=0)
     assert stopped.ending == "interrupted"
     seen: list[str] = []
@@ -234,7 +236,7 @@ def test_a_run_is_continued_with_further_steps(model: st.Model, pad: st.Body) ->
     first = model.run()
     back = st.Step("back", pad["zmax"].displace(y=0.0), increments=4)
     seen: list[str] = []
-    second = first.continue_with(back, on_increment=lambda i: seen.append(i.step))
+    second = first.continue_with(back, on_increment=lambda i: seen.append(i.step), keep="all")
     assert seen == ["back"] * 4
     assert second[0].number == 8 and second[-1].time == 3.0
     assert second.model.step_names == ["press", "drag", "back"]
@@ -300,7 +302,7 @@ def test_files_are_those_of_the_program(model: st.Model, tmp_path: Path) -> None
 def test_files_and_reports_can_be_had_afterwards(model: st.Model, tmp_path: Path) -> None:
     """Files are those of a run that was written on the way."""
     written = model.run(output=tmp_path / "on the way", case="pad")
-    run = model.run()
+    run = model.run(keep="all")
     assert run.folder is None and written.folder == tmp_path / "on the way"
     run.report(tmp_path / "early.html")
     assert run.folder is None
@@ -316,8 +318,14 @@ def test_files_and_reports_can_be_had_afterwards(model: st.Model, tmp_path: Path
         one.report(tmp_path / "report.html")
         page = (tmp_path / "report.html").read_text()
         assert page.startswith("<!DOCTYPE html>") and "pad-floor" in page
-    with pytest.raises(st.ModelError, match="run: 1 of 7 increments are kept"):
-        model.run(keep="last").report(tmp_path / "none.html")
+    few = model.run()
+    few.write(tmp_path / "few")
+    assert (tmp_path / "few" / "history.csv").read_bytes() == (written.folder / "history.csv").read_bytes()
+    fields = sorted((tmp_path / "few" / "fields").glob("pad-*.vtu"))
+    assert [path.name for path in fields] == [f"pad-0000{n}.vtu" for n in range(3)]
+    for path, number in zip(fields, (0, 2, 7)):
+        assert path.read_bytes() == (written.folder / "fields" / f"pad-0000{number}.vtu").read_bytes()
+    model.run(keep="last").report(tmp_path / "last.html")
     with pytest.raises(RuntimeError, match="holds the results of an earlier run"):
         run.write(tmp_path / "on the way")
     back = st.Step("back", model.body("pad")["zmax"].displace(y=0), increments=2)

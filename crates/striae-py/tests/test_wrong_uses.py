@@ -291,6 +291,20 @@ TYPE_ERRORS: list[tuple[Callable[[], Any], str]] = [
         lambda: st.sweep(floored, {"law": 0.3}),  # type: ignore[dict-item]
         "parameter `law`: a list of values is needed, not 0.3",
     ),
+    (
+        lambda: st.Coulomb(friction=0.3),  # type: ignore[call-arg]
+        "Coulomb: it has no argument `friction`; its arguments are `mu`",
+    ),
+    (
+        lambda: st.Coulomb(mu=0.3, shear_cap=1e5),  # type: ignore[call-arg]
+        "Coulomb: it has no argument `shear_cap`; its arguments are `mu`; the key `shear_cap` of"
+        " decks is law.with_shear_cap",
+    ),
+    (
+        lambda: st.LinearElastic(youngs_modulus=1.0, poissons_ratio=0.3, density=1e3),  # type: ignore[call-arg]
+        "LinearElastic: it has no argument `density`; its arguments are `youngs_modulus`,"
+        " `poissons_ratio`; the key `density` of decks is density of a Body or a Section",
+    ),
     (lambda: st.Friction(), "use one of the laws, such as Coulomb, or OwnFriction"),
 ]
 

@@ -39,6 +39,9 @@ pub enum ReportError {
     /// A direction of view has no length.
     #[error("a view along (0, 0, 0) shows nothing")]
     View,
+    /// The extension of an animation states no format.
+    #[error("{}: an animation ends in .gif or .png; choose one of these", .0.display())]
+    Animation(PathBuf),
     /// A picture cannot be written.
     #[error(transparent)]
     Figure(#[from] FigureError),

@@ -263,3 +263,84 @@ fn pictures_show_a_field_at_a_time_from_a_side() {
         ReportError::View
     ));
 }
+
+#[test]
+fn animations_have_a_frame_a_time_one_view_and_one_colour_range() {
+    let folder = tempfile::tempdir().unwrap();
+    results(folder.path(), 4);
+    let picture = Picture {
+        width: 300,
+        ..Picture::default()
+    };
+    let file = folder.path().join("animation.png");
+    picture::animate(folder.path(), &picture, 0.2, &file).unwrap();
+    let bytes = std::fs::read(&file).unwrap();
+    let mut reader = png::Decoder::new(&bytes[..]).read_info().unwrap();
+    assert_eq!(reader.info().animation_control().unwrap().num_frames, 5);
+    let [width, height] = [reader.info().width, reader.info().height].map(|side| side as usize);
+    let mut canvas = vec![[255_u8; 3]; width * height];
+    let mut frames = Vec::new();
+    for _ in 0..5 {
+        let mut buffer = vec![0; reader.output_buffer_size()];
+        reader.next_frame(&mut buffer).unwrap();
+        let control = *reader.info().frame_control().unwrap();
+        assert_eq!(control.delay_num, if frames.len() == 4 { 100 } else { 20 });
+        let [left, top, columns, rows] = [
+            control.x_offset,
+            control.y_offset,
+            control.width,
+            control.height,
+        ]
+        .map(|side| side as usize);
+        for at in 0..columns * rows {
+            let to = (top + at / columns) * width + left + at % columns;
+            canvas[to] = [buffer[3 * at], buffer[3 * at + 1], buffer[3 * at + 2]];
+        }
+        frames.push(canvas.clone());
+    }
+    // The bar and its numbers stand still; what is shown moves.
+    for frame in &frames[1..] {
+        assert_ne!(frame, &frames[0]);
+        let bar = (width - width / 8)..width;
+        for (row, column) in (0..height).flat_map(|row| bar.clone().map(move |c| (row, c))) {
+            let at = row * width + column;
+            assert_eq!(frame[at], frames[0][at]);
+        }
+    }
+    // The colours span all times: the largest pressure of the first increment is not the brightest.
+    let brightest = |frame: &[[u8; 3]]| {
+        let room = frame
+            .chunks_exact(width)
+            .flat_map(|row| &row[..width - width / 8]);
+        room.map(|dot| i32::from(dot[0]) - i32::from(dot[2])).max()
+    };
+    assert!(brightest(&frames[1]) < brightest(&frames[4]));
+    let still = picture::render(
+        folder.path(),
+        &Picture {
+            range: Some([1.0, 5.0]),
+            ..picture.clone()
+        },
+    );
+    let mut still = still.unwrap();
+    assert_eq!(still.size()[0], width);
+    let bar = [width - width / 8 + 2, still.size()[1] / 2];
+    assert_eq!(*still.dot(bar), frames[4][height / 2 * width + bar[0]]);
+
+    let gif = folder.path().join("animation.gif");
+    picture::animate(folder.path(), &picture, 0.2, &gif).unwrap();
+    assert!(std::fs::read(&gif).unwrap().starts_with(b"GIF89a"));
+    let film = folder.path().join("film.mp4");
+    let refused = picture::animate(folder.path(), &picture, 0.2, &film).unwrap_err();
+    assert!(
+        refused
+            .to_string()
+            .ends_with("ends in .gif or .png; choose one of these")
+    );
+    let unknown = Picture {
+        field: Some("heat".into()),
+        ..picture
+    };
+    picture::animate(folder.path(), &unknown, 0.2, &folder.path().join("no.gif")).unwrap_err();
+    assert!(!film.exists() && !folder.path().join("no.gif").exists());
+}

@@ -99,6 +99,7 @@ const LADDER: &[Row] = &[
         outside: &[
             "ab_glyph",
             "dejavu",
+            "gif",
             "plotters",
             "plotters-backend",
             "png",

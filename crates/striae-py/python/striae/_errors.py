@@ -42,7 +42,8 @@ class ModelError(ValueError):
 class RunStopped(RuntimeError):
     """A run ended before its last step was completed; the message says why.
 
-    All converged increments are in :attr:`run`, and on disk if the run was recorded.
+    The history of all converged increments and the states that are kept are in :attr:`run`; all
+    are on disk if the run was recorded.
     """
 
     run: Run
@@ -57,8 +58,8 @@ class RunStopped(RuntimeError):
 class RunInterrupted(KeyboardInterrupt):
     """A run was interrupted from the keyboard.
 
-    The run ends after the current increment. All converged increments are in :attr:`run`, and on
-    disk if the run was recorded.
+    The run ends after the current increment. The history of all converged increments and the states
+    that are kept are in :attr:`run`; all are on disk if the run was recorded.
     """
 
     run: Run

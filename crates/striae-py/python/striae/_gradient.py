@@ -22,7 +22,7 @@ def differentiate(
     output: Optional[Path] = None,
     case: Optional[str] = None,
     fields_every: Optional[int] = None,
-    keep: Keep = "all",
+    keep: Keep = "steps",
     threads: Optional[int] = None,
     on_stop: Literal["raise", "return"] = "raise",
 ) -> Run:

@@ -1,4 +1,5 @@
-"""Conversion of meshes of meshio and pyvista, and of results to grids of pyvista."""
+"""Conversion of meshes of meshio and pyvista, and of results to grids of pyvista and datasets of
+xarray."""
 
 from __future__ import annotations
 
@@ -12,7 +13,10 @@ from ._errors import refuse
 from ._mesh import KINDS, Mesh, corners_of_facets
 
 if TYPE_CHECKING:
+    from xarray import Dataset
+
     from ._results import Increment
+    from ._run import Run
 
 #: Numbers of the kinds among VTK's cells.
 VTK = {"hexahedron": 12, "wedge": 13, "pyramid": 14, "tetra": 10, "tetra10": 24}
@@ -110,3 +114,69 @@ def patch(increment: Increment, pair: int, side: str) -> Any:
     for name in ["gap", "pressure", "friction", "traction", "slip", "status"]:
         made.point_data[name] = np.array(getattr(known, name))
     return made
+
+
+#: Fields of a dataset, with the names of their axes beyond nodes.
+OF_BODIES: dict[str, tuple[str, ...]] = {
+    "displacement": ("axis",),
+    "contact_force": ("axis",),
+    "stress": ("axis", "along"),
+    "von_mises": (),
+}
+OF_SIDES: dict[str, tuple[str, ...]] = {
+    "pressure": (),
+    "gap": (),
+    "friction": ("axis",),
+    "slip": ("axis",),
+    "status": (),
+}
+
+
+def dataset(run: Run) -> Dataset:
+    """The history and the fields of kept increments."""
+    try:
+        import xarray
+    except ImportError as error:
+        text = "to_xarray needs xarray, which `pip install striae[xarray]` installs"
+        raise ImportError(text) from error
+    history = run.history
+    found: dict[str, Any] = {
+        name: ("increment", np.array(history[name])) for name in history if name != "increment"
+    }
+    # These names are those of the coordinates of kept increments.
+    found.update({f"history.{name}": found.pop(name) for name in ("time", "step") if name in found})
+    for name in run.model.body_names:
+        parts = [increment.body(name) for increment in run]
+        found.update(_over_states(name, parts, OF_BODIES))
+    for index, name in enumerate(run.model.pair_names):
+        for side in ("a", "b"):
+            if all(one._results.side_body(index, side == "b") is not None for one in run):
+                sides = [getattr(increment.pair(index), side) for increment in run]
+                found.update(_over_states(f"{name}.{side}", sides, OF_SIDES))
+                if sides:
+                    node = f"{name}.{side}.node"
+                    found[node] = (node, np.array(sides[0].nodes))
+    axes = ["x", "y", "z"]
+    coordinates = {
+        "increment": np.array(history.get("increment", []), dtype=np.int64),
+        "state": np.array([one.number for one in run], dtype=np.int64),
+        "time": ("state", np.array([one.time for one in run])),
+        "step": ("state", np.array([one.step for one in run], dtype=object)),
+        "axis": axes,
+        "along": axes,
+    }
+    return xarray.Dataset(found, coordinates, {"title": run.model.title, "ending": run.ending})
+
+
+def _over_states(
+    name: str, parts: list[Any], fields: dict[str, tuple[str, ...]]
+) -> dict[str, Any]:
+    """Fields of a part over the kept increments."""
+    return {
+        f"{name}.{field}": (
+            ("state", f"{name}.node", *axes),
+            np.stack([getattr(part, field) for part in parts]),
+        )
+        for field, axes in fields.items()
+        if parts
+    }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Callable
 from typing import Any, Optional, TypeAlias
 
@@ -16,6 +17,7 @@ class Made:
     _recipe: Optional[Recipe]
 
     def __new__(cls, *arguments: Any, **named: Any) -> Any:
+        unknown(cls, named)
         made = super().__new__(cls)
         made._recipe = (cls, arguments, named)
         return made
@@ -24,6 +26,50 @@ class Made:
         if self._recipe is None:
             raise TypeError(f"{self!r} cannot be pickled: it was not made by its class")
         return again, self._recipe
+
+
+#: Counterparts in Python of keys of decks in tables of materials, laws and surfaces.
+ELSEWHERE = {
+    "density": "density of a Body or a Section",
+    "fibres": "Fibrous(ground, fibres)",
+    "lambda": "youngs_modulus and poissons_ratio",
+    "shear_cap": "law.with_shear_cap",
+    "decay": "law.with_decay",
+    "by_pressure": "law.with_power_law, with_adhesion, with_saturation or with_table_by_pressure",
+    "by_slip_rate": "law.with_stribeck, with_logarithm or with_table_by_slip_rate",
+    "by_accumulated_slip": "law.with_exponential or with_table_by_accumulated_slip",
+    "by_state": "law.with_ageing_law or with_slip_law",
+    "uniform": "Uniform(direction)",
+    "circumferential": "Circumferential(axis)",
+    "axial": "Axial(axis)",
+    "radial": "Radial(axis)",
+    "points": "Painted(places, directions)",
+    "plane": "Plane(name, normal=, point=)",
+    "mesh": "RigidSurface(name, surface)",
+    "displacement": "body['top'].displace",
+    "pressure": "body['top'].pressure",
+    "traction": "body['top'].traction",
+    "force": "body['top'].force",
+    "velocity": "body.velocity",
+    "gravity": "gravity(vector)",
+    "release": "body['top'].release",
+}
+
+
+def unknown(cls: type, named: dict[str, Any]) -> None:
+    """Refuses arguments that a class does not have, with those it has."""
+    # Of the function itself, as objects are not yet there.
+    parameters = inspect.signature(getattr(cls, "__init__")).parameters
+    if any(one.kind is one.VAR_KEYWORD for one in parameters.values()):
+        return
+    for name in named:
+        if name not in parameters:
+            known = [f"`{one}`" for one in list(parameters)[1:]]
+            listed = ", ".join(known) or "none"
+            text = f"{cls.__name__}: it has no argument `{name}`; its arguments are {listed}"
+            if name in ELSEWHERE:
+                text = f"{text}; the key `{name}` of decks is {ELSEWHERE[name]}"
+            raise TypeError(text)
 
 
 def again(maker: Callable[..., Any], arguments: tuple[Any, ...], named: dict[str, Any]) -> Any:

@@ -408,7 +408,7 @@ class Model:
         output: Optional[Path] = None,
         case: Optional[str] = None,
         fields_every: Optional[int] = None,
-        keep: Keep = "all",
+        keep: Keep = "steps",
         threads: Optional[int] = None,
         on_stop: Literal["raise", "return"] = "raise",
     ) -> Run:
@@ -416,7 +416,7 @@ class Model:
 
         Other Python threads continue meanwhile. Ctrl-C ends the run after the current increment and
         raises :class:`RunInterrupted`; an exception of ``on_increment`` ends it, too. In both cases
-        files are complete and :attr:`last_run` has all converged increments.
+        files are complete and :attr:`last_run` has the history and the kept states.
 
         on_increment: called with each converged increment on the thread that runs the model;
             if it returns ``False``, the run ends there.
@@ -424,8 +424,9 @@ class Model:
             summary); nothing is written by default.
         case: name of the case in these files; the title, or that of the deck, by default.
         fields_every: increments between files of fields; 0: only the last.
-        keep: increments whose state is kept in memory: ``all``, ``steps`` (the last one of each
-            step), ``last``, or a number ``n`` for every ``n``-th. The last is always kept.
+        keep: increments whose state is kept in memory: ``steps`` (the last one of each step, so
+            that long runs stay small), ``all``, ``last``, or a number ``n`` for every ``n``-th.
+            The last is always kept, and the history has all.
         threads: number of threads; that of the machine by default. Results do not depend on it.
         on_stop: treatment of a run that cannot reach its end: ``raise`` :class:`RunStopped`, or
             ``return`` the run.

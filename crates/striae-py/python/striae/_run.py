@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import pathlib
 import tempfile
@@ -14,7 +15,7 @@ import numpy as np
 
 from . import _check as check
 from . import _striae as native
-from ._check import Floats
+from ._check import Floats, Vector
 from ._errors import RunInterrupted, RunStopped, RunWarning, refuse
 from ._mesh import frozen
 from ._results import Increment
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
     from pandas import DataFrame
+    from xarray import Dataset
 
     from ._model import Model
 
@@ -198,18 +200,28 @@ class Run(Sequence[Increment]):
         """Bodies and contact surfaces at the end, see :meth:`Increment.to_pyvista`."""
         return self[-1].to_pyvista()
 
+    def to_xarray(self) -> Dataset:
+        """The history and the fields of kept increments as a dataset of xarray.
+
+        Columns of the history lie over ``increment``, its time and step as ``history.time`` and
+        ``history.step``. Fields lie over ``state``, the kept
+        increments, whose ``time`` and ``step`` are coordinates: of bodies ``BODY.displacement``,
+        ``BODY.contact_force``, ``BODY.stress`` and ``BODY.von_mises`` over ``BODY.node``, of the
+        deformable sides of pairs ``PAIR.a.pressure``, ``gap``, ``friction``, ``slip`` and
+        ``status`` over ``PAIR.a.node``. Needs ``striae[xarray]``.
+        """
+        from ._interchange import dataset
+
+        return dataset(self)
+
     def write(self, folder: Path, *, case: Optional[str] = None, fields_every: int = 1) -> None:
         """Writes the files of the program (fields for ParaView, history, summary) of a run that was
-        not recorded; all its increments must be kept.
+        not recorded. The history is that of all increments, fields are those of kept ones.
 
         folder: folder to write to; it must not contain other results.
         case: name of the case in these files; the title of the model by default.
         fields_every: increments between files of fields; 0: only the last.
         """
-        rows = len(self._history.table)
-        if len(self) != rows:
-            text = f"{len(self)} of {rows} increments are kept; files need all of them"
-            raise refuse("run", text + ", or `output=` when it is run")
         name = self._model.title if case is None else check.name(case, "case")
         every = check.whole(fields_every, "fields_every", 0)
         self._native.write(os.fspath(folder), name, every)
@@ -217,18 +229,110 @@ class Run(Sequence[Increment]):
 
     def report(self, path: Path) -> None:
         """Writes a report that opens in any browser, without a network: deformed bodies with
-        fields and a time slider, histories, increments, warnings.
+        fields and a time slider, histories, increments, warnings. Of a run without a folder it
+        shows kept increments.
 
         path: the HTML file.
         """
-        if self._folder is not None:
-            native.report(str(self._folder), os.fspath(path))
+        with self._files() as folder:
+            native.report(folder, os.fspath(path))
+
+    def picture(
+        self,
+        path: Path,
+        field: Optional[str] = None,
+        *,
+        component: Optional[str] = None,
+        time: Optional[float] = None,
+        view: Union[str, Vector] = "corner",
+        range: Optional[tuple[float, float]] = None,
+        magnify: float = 1.0,
+        hide: Sequence[str] = (),
+        width: int = 900,
+    ) -> None:
+        """Draws the deformed bodies, coloured by a field, as ``striae picture`` does.
+
+        path: the PNG file.
+        field: by its name in the VTU files, such as ``pressure`` or ``cauchy_stress``; the contact
+            pressure by default.
+        component: such as ``x``, ``magnitude``, ``von Mises``, ``largest principal``.
+        time: the nearest one with fields is drawn; the last by default (time).
+        view: ``corner``, ``front``, ``back``, ``left``, ``right``, ``top``, ``below``, or the
+            direction of sight.
+        range: least and largest value of the colours, in units of the field; those of what is
+            shown by default.
+        magnify: magnification of displacements (no unit).
+        hide: bodies and surfaces that are left out.
+        width: in pixels.
+        """
+        moment = check.optional(time, "time")
+        pictured = drawn(field, component, moment, view, range, magnify, hide, width)
+        with self._files() as folder:
+            native.picture(folder, os.fspath(path), pictured, None)
+
+    def animate(
+        self,
+        path: Path,
+        field: Optional[str] = None,
+        *,
+        frame_time: float = 0.1,
+        component: Optional[str] = None,
+        view: Union[str, Vector] = "corner",
+        range: Optional[tuple[float, float]] = None,
+        magnify: float = 1.0,
+        hide: Sequence[str] = (),
+        width: int = 900,
+    ) -> None:
+        """Draws an animation with a frame for each time with fields: of a run with a folder those
+        of its files, of another one its kept increments (``keep="all"`` keeps all). View and
+        colours are the same in all frames.
+
+        path: the file, ``.gif``, or ``.png`` for an animated PNG with all colours.
+        frame_time: time of a frame, 0.01 to 60; the last one is shown for at least 1 (seconds).
+        field, component, view, range, magnify, hide, width: as of :meth:`picture`.
+        """
+        seconds = check.positive(frame_time, "frame_time")
+        if not 0.01 <= seconds <= 60.0:
+            raise refuse("frame_time", f"0.01 to 60 seconds are needed, not {frame_time!r}")
+        pictured = drawn(field, component, None, view, range, magnify, hide, width)
+        with self._files() as folder:
+            native.picture(folder, os.fspath(path), pictured, seconds)
+
+    @contextlib.contextmanager
+    def _files(self) -> Iterator[str]:
+        """The folder of the files, or one that is written for the while."""
+        if self._folder is not None and self._folder.is_dir():
+            yield str(self._folder)
             return
         with tempfile.TemporaryDirectory(prefix="striae-") as place:
-            folder = pathlib.Path(place) / "results"
-            self.write(folder)
-            self._folder = None
-            native.report(str(folder), os.fspath(path))
+            folder = os.path.join(place, "results")
+            self._native.write(folder, self._model.title, 1)
+            yield folder
+
+    def _repr_html_(self) -> Optional[str]:
+        """The run in a notebook: a picture of the end and a table; ``None`` if that cannot be."""
+        from ._notebook import shown
+
+        try:
+            return shown(self)
+        except Exception:
+            # A notebook shows the plain text instead.
+            return None
+
+    def __reduce__(self) -> tuple[Callable[..., Run], tuple[Any, ...]]:
+        """Runs are pickled whole: the model as a deck, the history, and the states of kept
+        increments, to the last bit; derivatives are left out."""
+        with tempfile.TemporaryDirectory(prefix="striae-") as place:
+            folder = pathlib.Path(place)
+            for number in range(len(self)):
+                (folder / str(number)).mkdir()
+            self._native.save(place)
+            files = {
+                path.relative_to(folder).as_posix(): path.read_bytes()
+                for path in sorted(folder.rglob("*"))
+                if path.is_file()
+            }
+        return unpickled, (self._model, files, len(self), self.ending, self.reason, self._folder)
 
     def continue_with(
         self,
@@ -236,7 +340,7 @@ class Run(Sequence[Increment]):
         on_increment: Optional[Callback] = None,
         output: Optional[Path] = None,
         fields_every: Optional[int] = None,
-        keep: Keep = "all",
+        keep: Keep = "steps",
         threads: Optional[int] = None,
         on_stop: Literal["raise", "return"] = "raise",
     ) -> Run:
@@ -261,6 +365,58 @@ class Run(Sequence[Increment]):
 
     def __repr__(self) -> str:
         return f"<run: {self.reason}; {len(self)} increments are kept>"
+
+
+def unpickled(
+    model: Model,
+    files: dict[str, bytes],
+    states: int,
+    ending: str,
+    reason: str,
+    folder: Optional[pathlib.Path],
+) -> Run:
+    """The run of a pickle."""
+    with tempfile.TemporaryDirectory(prefix="striae-") as place:
+        for name, content in files.items():
+            path = pathlib.Path(place, name)
+            path.parent.mkdir(exist_ok=True)
+            path.write_bytes(content)
+        found = native.returned(model._compiled(), place, states, ending, reason)
+    run = Run(found, model, folder)
+    model._last_run = run
+    return run
+
+
+def drawn(
+    field: Optional[str],
+    component: Optional[str],
+    time: Optional[float],
+    view: Union[str, Vector],
+    limits: Optional[tuple[float, float]],
+    magnify: float,
+    hide: Sequence[str],
+    width: int,
+) -> native.Pictured:
+    """A picture, for the native part."""
+    span = None
+    if limits is not None:
+        span = check.vector(limits, "range", 2)
+        if not span[0] < span[1]:
+            raise refuse("range", f"ascending limits are needed, not {limits!r}")
+    if isinstance(hide, str):
+        raise TypeError(f"hide: a list of names is needed, not {hide!r}")
+    if check.whole(width, "width", 100) > 8000:
+        raise refuse("width", f"it must be at most 8000, but is {width}")
+    return (
+        None if field is None else check.name(field, "field"),
+        None if component is None else check.name(component, "component"),
+        time,
+        view if isinstance(view, str) else check.vector(view, "view"),
+        span,
+        check.number(magnify, "magnify"),
+        [check.name(name, "hide") for name in hide],
+        int(width),
+    )
 
 
 def watch(
@@ -337,7 +493,7 @@ def resume(
     *,
     fields_every: Optional[int] = None,
     on_increment: Optional[Callback] = None,
-    keep: Keep = "all",
+    keep: Keep = "steps",
     threads: Optional[int] = None,
     on_stop: Literal["raise", "return"] = "raise",
 ) -> Run:

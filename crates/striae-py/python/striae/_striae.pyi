@@ -23,6 +23,16 @@ _Told = tuple[
 ]
 Watching = tuple[Optional[Callable[[Results], object]], int, Optional[int]]
 Recording = Optional[tuple[_Path, Optional[str], Optional[int]]]
+Pictured = tuple[
+    Optional[str],
+    Optional[str],
+    Optional[float],
+    Union[str, list[float]],
+    Optional[list[float]],
+    float,
+    list[str],
+    int,
+]
 
 def check_function(text: str, path: str) -> None: ...
 def moves(text: str) -> bool: ...
@@ -478,6 +488,9 @@ def returned(
     model: Model, folder: _Path, states: int, ending: str, reason: str
 ) -> Run: ...
 def report(folder: _Path, file: _Path) -> None: ...
+def picture(
+    folder: _Path, file: _Path, pictured: Pictured, frame_time: Optional[float]
+) -> None: ...
 def deck_of(folder: _Path) -> str: ...
 def resume(
     folder: _Path, fields_every: Optional[int], watching: Watching

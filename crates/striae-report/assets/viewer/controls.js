@@ -64,12 +64,16 @@ class Controls {
   }
 
   fillParts() {
-    const pairs = new Set();
+    // The two sides of a pair lie on each other: at first the smaller one is shown, as the larger
+    // one has nodes beside the contact.
+    const smaller = new Map();
+    const pairOf = (part) => part.head.name.slice(0, part.head.name.lastIndexOf(`-${this.bodyOf(part)}`));
+    for (const part of this.view.parts.filter((part) => part.head.kind === "contact")) {
+      const [pair, area] = [pairOf(part), this.view.area(part)];
+      if (!smaller.has(pair) || area < smaller.get(pair).area) smaller.set(pair, { part, area });
+    }
     for (const part of this.view.parts) {
-      // The two sides of a pair lie on each other: at first one is shown.
-      const pair = part.head.kind === "contact" && part.head.name.slice(0, part.head.name.lastIndexOf(`-${this.bodyOf(part)}`));
-      part.visible = !pair || !pairs.has(pair);
-      pairs.add(pair);
+      part.visible = part.head.kind !== "contact" || smaller.get(pairOf(part)).part === part;
       const box = element("input", { type: "checkbox", checked: part.visible });
       box.addEventListener("change", () => {
         part.visible = box.checked;

@@ -84,6 +84,18 @@ class View {
     this.camera.far = this.size * 100;
   }
 
+  /** Area of a part at rest. */
+  area(part) {
+    const corners = part.mesh.geometry.index.array;
+    const place = (corner) => new THREE.Vector3().fromArray(part.rest, 3 * corner);
+    let area = 0;
+    for (let at = 0; at < corners.length; at += 3) {
+      const [a, b, c] = [0, 1, 2].map((next) => place(corners[at + next]));
+      area += 0.5 * b.sub(a).cross(c.sub(a)).length();
+    }
+    return area;
+  }
+
   /** Looks at the bodies from a direction. */
   lookFrom(direction) {
     const from = new THREE.Vector3(...direction).normalize();

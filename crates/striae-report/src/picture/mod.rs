@@ -8,10 +8,13 @@
 //! A field of contact is drawn on the smaller side of each pair, and bodies and rigid
 //! surfaces are seen through. Any other field is drawn on the bodies. The projection is
 //! orthographic. Numbers under the colour bar are the extremes of what is drawn, the inside
-//! of bodies included, as in the [report](crate). [`Surfaces`] draws what has no results:
+//! of bodies included, as in the [report](crate). An [animation](film) has one view and one span
+//! of colours for all its frames. [`Surfaces`] draws what has no results:
 //! facets in the colours of their names.
 
 mod canvas;
+mod carrier;
+mod film;
 mod layer;
 mod surfaces;
 mod view;
@@ -21,6 +24,7 @@ use std::path::Path;
 use striae_figure::Dots;
 
 use crate::{ReportError, invariants, part::parts, results::Results};
+pub use film::animate;
 pub use surfaces::Surfaces;
 
 use canvas::Canvas;
@@ -29,6 +33,20 @@ use view::View;
 
 /// Width of a picture in dots, by default.
 pub const WIDTH: usize = 900;
+
+/// Direction of sight towards a corner, by default.
+const CORNER: [f64; 3] = [0.6, 1.0, -0.65];
+
+/// Directions of sight by their names.
+pub const VIEWS: [(&str, [f64; 3]); 7] = [
+    ("corner", CORNER),
+    ("front", [0.0, 1.0, 0.0]),
+    ("back", [0.0, -1.0, 0.0]),
+    ("left", [1.0, 0.0, 0.0]),
+    ("right", [-1.0, 0.0, 0.0]),
+    ("top", [0.0, 0.0, -1.0]),
+    ("below", [0.0, 0.0, 1.0]),
+];
 
 /// Size of words over the width of a picture.
 const WORDS: f64 = 0.016;
@@ -44,6 +62,8 @@ pub struct Picture {
     pub time: Option<f64>,
     /// From the place of the eye to what is seen; the third axis points upwards.
     pub direction: [f64; 3],
+    /// Least and largest value of the colours; by default those of what is shown.
+    pub range: Option<[f64; 2]>,
     /// Magnification of displacements.
     pub magnification: f64,
     /// Bodies and surfaces that are left out.
@@ -58,7 +78,8 @@ impl Default for Picture {
             field: None,
             component: None,
             time: None,
-            direction: [0.6, 1.0, -0.65],
+            direction: CORNER,
+            range: None,
             magnification: 1.0,
             hidden: Vec::new(),
             width: WIDTH,

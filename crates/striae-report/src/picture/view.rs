@@ -40,9 +40,7 @@ impl View {
         points: &[[f64; 3]],
         width: usize,
     ) -> Result<Self, ReportError> {
-        let away = unit(direction).ok_or(ReportError::View)?;
-        let right = unit(cross(away, [0.0, 0.0, 1.0])).unwrap_or([1.0, 0.0, 0.0]);
-        let axes = [right, cross(right, away), away];
+        let axes = axes(direction)?;
         let bounds = [0, 1].map(|axis| {
             let along = points.iter().map(|x| dot(*x, axes[axis]));
             along.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], v| {
@@ -61,6 +59,23 @@ impl View {
             middle: bounds.map(|[least, largest]| 0.5 * (least + largest)),
             size: [width, height],
         })
+    }
+
+    /// The points that are farthest to the right, to the left, up and down in a direction of
+    /// sight: a view of them holds all.
+    ///
+    /// # Errors
+    /// When the direction has no length.
+    pub fn outermost(
+        direction: [f64; 3],
+        points: &[[f64; 3]],
+    ) -> Result<Vec<[f64; 3]>, ReportError> {
+        let axes = axes(direction)?;
+        let ends = axes[..2].iter().flat_map(|axis| {
+            let by = |a: &&[f64; 3], b: &&[f64; 3]| dot(**a, *axis).total_cmp(&dot(**b, *axis));
+            [points.iter().min_by(by), points.iter().max_by(by)]
+        });
+        Ok(ends.flatten().copied().collect())
     }
 
     /// Columns and rows of the picture.
@@ -89,6 +104,13 @@ impl View {
         let light = (-0.35 * right + 0.6 * up - 0.72 * away).abs();
         0.55 + 0.45 * light.min(1.0)
     }
+}
+
+/// Right, up, and away from the eye.
+fn axes(direction: [f64; 3]) -> Result<[[f64; 3]; 3], ReportError> {
+    let away = unit(direction).ok_or(ReportError::View)?;
+    let right = unit(cross(away, [0.0, 0.0, 1.0])).unwrap_or([1.0, 0.0, 0.0]);
+    Ok([right, cross(right, away), away])
 }
 
 /// The vector product.
@@ -132,5 +154,14 @@ mod tests {
         let [left, right] = [1.0, 0.0].map(|y| view.seen([0.0, y, 0.0]));
         assert!(left[0] < right[0]);
         assert!(View::along([0.0; 3], &points, 400).is_err());
+        let mut inside = points.to_vec();
+        inside.extend([[0.1, 0.9, 1.0], [0.3, 1.1, 0.8]]);
+        for direction in [[0.6, 1.0, -0.65], [0.0, 0.0, -2.0]] {
+            let outermost = View::outermost(direction, &inside).unwrap();
+            assert!(outermost.len() <= 4);
+            let [few, all] =
+                [&outermost, &inside].map(|points| View::along(direction, points, 400));
+            assert_eq!(few.unwrap(), all.unwrap());
+        }
     }
 }
