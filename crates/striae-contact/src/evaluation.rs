@@ -125,7 +125,12 @@ pub fn evaluate(
     let textures = textures(configuration, friction, selection, &frames, &kinematics)
         .map_err(Collapse::Texture)?;
     let rates = slip_rates(configuration, friction, selection, &kinematics);
-    let worn = wear::rates(configuration.pair, selection, tractions, &kinematics);
+    let worn = wear::rates(
+        configuration.pair,
+        selection,
+        tractions,
+        (&kinematics, &textures),
+    );
     if configuration.pair.enforcement == Enforcement::Weighted {
         ramp::add_to_gaps(configuration, selection, tractions, &mut kinematics);
         wear::add_to_gaps(selection, &worn, &mut kinematics);

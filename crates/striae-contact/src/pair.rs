@@ -32,6 +32,8 @@ pub struct ContactPair {
     pub one_body: bool,
     /// Coefficients of wear of the sides over their hardness: depth per pressure and slip.
     pub wear: [f64; 2],
+    /// Coefficient of wear across the texture over that along it.
+    pub wear_across: f64,
 }
 
 /// One side of a pair.
@@ -117,6 +119,14 @@ impl ContactPair {
     /// Returns whether friction wears a side.
     pub fn wears(&self) -> bool {
         self.wear != [0.0; 2]
+    }
+
+    /// Side whose texture wear depends on the direction to, if it depends on one: `a`, or `b` where
+    /// `a` has none.
+    pub fn wears_by(&self) -> Option<Side> {
+        let is_directed = self.wears() && self.wear_across != 1.0;
+        let mut sides = Side::BOTH.into_iter().filter(|_| is_directed);
+        sides.find(|&side| self.sides[side].texture.is_some())
     }
 
     /// Number of nodes that may bear traction, by side: those of deformable sides.

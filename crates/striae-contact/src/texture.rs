@@ -40,7 +40,7 @@ pub struct NodeTextures {
     pub opposite: Option<Tracked>,
 }
 
-/// Textures of all kept nodes, by side; empty where the law needs none.
+/// Textures of all kept nodes, by side; empty where neither the law nor wear needs any.
 pub type Textures = [Vec<NodeTextures>; 2];
 
 /// A texture without direction at a node.
@@ -52,7 +52,7 @@ pub struct CollapsedTexture {
     pub node: SurfaceNode,
 }
 
-/// Textures of all nodes that the friction law depends on. Nodes that face nothing have arbitrary
+/// Textures of all nodes that friction or wear depends on. Nodes that face nothing have arbitrary
 /// ones.
 ///
 /// # Errors
@@ -64,7 +64,9 @@ pub fn textures(
     frames: &Frames,
     kinematics: &[Kinematics],
 ) -> Result<Textures, CollapsedTexture> {
-    if friction.required_textures() == RequiredTextures::Any {
+    let is_needed = friction.required_textures() != RequiredTextures::Any
+        || configuration.pair.wears_by().is_some();
+    if !is_needed {
         return Ok(Side::BOTH.map(|side| vec![NodeTextures::default(); selection.nodes(side)]));
     }
     let of_side = |side: Side| -> Result<Vec<NodeTextures>, CollapsedTexture> {

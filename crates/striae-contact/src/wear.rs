@@ -10,6 +10,12 @@
 //! g_k += sum_l M_kl q_l                  with the rows M of `wear_rows`
 //! ```
 //!
+//! With a coefficient `rho k` across a texture its direction `a` across the grooves counts,
+//!
+//! ```text
+//! |du|  ->  sqrt(|du|^2 + (rho^2 - 1) (a . du)^2)
+//! ```
+//!
 //! `P^_l` is the mean pressure over the support as the points see it, and bounds friction in place
 //! of that of [`crate::complementarity`], which is the same where the gap row holds: next to what
 //! wears off, `p_l` alone may be far from the pressure. The slip is the one that is seen, without
@@ -25,7 +31,8 @@ use crate::{
     places::Places,
     selection::Selection,
     side::Side,
-    tracked::TrackedScalar,
+    texture::Textures,
+    tracked::{Tracked, TrackedScalar},
     unknown::Gradient,
     unknowns::Tractions,
 };
@@ -44,12 +51,21 @@ pub(crate) fn rates(
     pair: &ContactPair,
     selection: &Selection,
     tractions: &Tractions,
-    kinematics: &[Kinematics],
+    (kinematics, textures): (&[Kinematics], &Textures),
 ) -> Vec<Rate> {
     if selection.wear().is_empty() {
         return Vec::new();
     }
     let numbering = pair.numbering();
+    let directed = pair.wears_by();
+    let across = |side: Side, node: SurfaceNode| {
+        let textures = &textures[side][node];
+        let a = match directed? == side {
+            true => textures.own.as_ref(),
+            false => textures.opposite.as_ref(),
+        };
+        a.map(|a| (pair.wear_across, a))
+    };
     let kept = selection.kept().iter().zip(kinematics).enumerate();
     kept.map(|(k, (kept, kinematics))| {
         let (side, node) = kept.place();
@@ -57,7 +73,7 @@ pub(crate) fn rates(
         let p = tractions.nodes[side][node][0];
         let pressure = mean_pressure(kinematics, selection.weight(k), (own, p));
         pressure.map_or_else(Rate::default, |pressure| Rate {
-            wear: wear(&pressure, kinematics),
+            wear: wear(&pressure, kinematics, across(side, node)),
             pressure,
         })
     })
@@ -91,20 +107,34 @@ fn mean_pressure(
     })
 }
 
-/// `q_l`, without derivatives where the node does not slip.
-fn wear(pressure: &TrackedScalar, kinematics: &Kinematics) -> TrackedScalar {
+/// `q_l`, with the ratio `rho` of a direction across grooves if there is one; without derivatives
+/// where the node does not slip.
+fn wear(
+    pressure: &TrackedScalar,
+    kinematics: &Kinematics,
+    across: Option<(f64, &Tracked)>,
+) -> TrackedScalar {
     let slip = &kinematics.slip;
-    let Some(direction) = slip.value.try_normalize(0.0) else {
-        return TrackedScalar::default();
+    let (more, a) = match across {
+        Some((ratio, a)) => (ratio * ratio - 1.0, a.value),
+        None => (0.0, Vec3::zeros()),
     };
-    let way = slip.value.norm();
-    let by_pressure = pressure.gradient.iter();
-    let by_pressure = by_pressure.map(|(first, slope)| (*first, slope * way));
-    let by_slip = slip.jacobian.iter();
-    let by_slip = by_slip.map(|(first, block)| (*first, block.tr_mul(&direction) * pressure.value));
+    let along_a = slip.value.dot(&a);
+    let way = (slip.value.norm_squared() + more * along_a * along_a).sqrt();
+    if way == 0.0 {
+        return TrackedScalar::default();
+    }
+    let by_slip = (slip.value + a * (more * along_a)) * (pressure.value / way);
+    let by_texture = slip.value * (more * along_a * pressure.value / way);
+    let of_pressure = pressure.gradient.iter();
+    let of_pressure = of_pressure.map(|(first, slope)| (*first, slope * way));
+    let of_slip = slip.jacobian.iter();
+    let of_slip = of_slip.map(|(first, block)| (*first, block.tr_mul(&by_slip)));
+    let of_texture = across.into_iter().flat_map(|(_, a)| &a.jacobian);
+    let of_texture = of_texture.map(|(first, block)| (*first, block.tr_mul(&by_texture)));
     TrackedScalar {
         value: pressure.value * way,
-        gradient: by_pressure.chain(by_slip).collect(),
+        gradient: of_pressure.chain(of_slip).chain(of_texture).collect(),
     }
 }
 

@@ -77,6 +77,7 @@ fn pair(a: Geometry, b: Geometry) -> ContactPair {
         has_faces: false,
         one_body: false,
         wear: [0.0; 2],
+        wear_across: 1.0,
     }
 }
 

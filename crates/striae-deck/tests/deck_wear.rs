@@ -63,6 +63,19 @@ fn wear_is_written_as_it_is_read() {
 }
 
 #[test]
+fn a_ratio_is_that_of_wear_across_a_texture() {
+    let side = "facets = \"zmax\"";
+    let textured = format!("{side}, texture = {{ uniform = [1, 0, 0] }}");
+    let text = with("wear = 1e-8\nwear_across = 2.5").replacen(side, &textured, 1);
+    let model = parse(&text, "deck.toml", Path::new("")).unwrap().model;
+    assert_eq!(model.pairs[0].wear_across, 2.5);
+    let written = write(&model, &Output::default()).unwrap();
+    assert!(written.contains("wear_across = 2.5"), "{written}");
+    let said = refused(&with("wear_across = 2.5"));
+    assert!(said.contains("but no `wear`"), "{said}");
+}
+
+#[test]
 fn what_cannot_wear_is_named_with_its_place() {
     for (text, what) in [
         (with("wear = -1e-8"), "at least 0"),
@@ -74,6 +87,11 @@ fn what_cannot_wear_is_named_with_its_place() {
         (
             with("wear = 1e-8\nenforcement = \"collocated\""),
             "remove one of the settings",
+        ),
+        (with("wear_across = -2.0\nwear = 1e-8"), "greater than 0"),
+        (
+            on_floor("wear_across = 2.0\nwear = 1e-8"),
+            "give one a `texture`",
         ),
         (
             with("wear = 1e-8").replacen(FRICTION, "", 1),

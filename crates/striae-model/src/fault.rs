@@ -268,6 +268,20 @@ pub enum FaultKind {
         /// The pair.
         pair: String,
     },
+    /// Wear that depends on a direction, of sides that do not wear.
+    #[error("pair `{pair}` states `wear_across`, but no `wear`; state both, or remove it")]
+    WearAcrossNothing {
+        /// The pair.
+        pair: String,
+    },
+    /// Wear that depends on a direction that no texture states.
+    #[error(
+        "pair `{pair}` states `wear_across`, but neither side has a texture that wear could be across; give one a `texture`, or remove it"
+    )]
+    WearWithoutTexture {
+        /// The pair.
+        pair: String,
+    },
     /// Wear without friction.
     #[error(
         "pair `{pair}` states `wear`, but is frictionless in all steps: sides wear where they slip with friction. State a friction law, with a small coefficient if need be, or remove `wear`"

@@ -60,6 +60,10 @@ impl Pair {
         Self(self.0.clone().wear(a, b))
     }
 
+    fn wearing_across(&self, ratio: f64) -> Self {
+        Self(self.0.clone().wear_across(ratio))
+    }
+
     fn resolved(&self) -> Self {
         Self(self.0.clone().initial(Initial::Resolve))
     }

@@ -99,6 +99,7 @@ fn model(count: usize) -> Model {
             initial: Initial::AsMeshed,
             interference: None,
             wear: [0.0; 2],
+            wear_across: 1.0,
             stabilised: false,
             feature_angle: None,
         }],

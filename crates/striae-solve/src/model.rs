@@ -211,6 +211,9 @@ pub struct Pair {
     /// Coefficients of wear of the sides over their hardness: the depth that wears off per
     /// pressure and slip, an inverse stress; zero for a side that does not wear.
     pub wear: [f64; 2],
+    /// Coefficients of wear across the texture of side `a`, or of `b` where `a` has none, over
+    /// those along it.
+    pub wear_across: f64,
     /// `true` if viscous forces carry bodies without other restraints across the gap, see
     /// [`crate::stabilisation`].
     pub stabilised: bool,

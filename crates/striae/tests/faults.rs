@@ -105,6 +105,7 @@ fn joined(name: &str, a: ContactSurface, b: ContactSurface, friction: Friction) 
         initial: Initial::AsMeshed,
         interference: None,
         wear: [0.0; 2],
+        wear_across: 1.0,
         stabilised: false,
         feature_angle: None,
     }

@@ -195,6 +195,7 @@ fn member(stated: &Pair, positions: &[Vec3]) -> Result<Member, Faults> {
         has_faces: false,
         one_body: false,
         wear: [0.0; 2],
+        wear_across: 1.0,
     };
     let friction = stated.friction.clone();
     Ok(Member {

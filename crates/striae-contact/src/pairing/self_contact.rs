@@ -177,6 +177,7 @@ mod tests {
             has_faces: true,
             one_body: false,
             wear: [0.0; 2],
+            wear_across: 1.0,
         };
         let at = Configuration::new(&pair, [x, Vec::new()], Placement::at_rest());
         let compliances = compliances(&at);

@@ -103,6 +103,7 @@ fn lower_pair(
             .map_or(Initial::AsMeshed, |initial| lower_initial(&initial.value)),
         interference,
         wear,
+        wear_across: pair.wear_across.as_ref().map_or(1.0, |ratio| ratio.value.0),
         stabilised: pair.stabilise.as_ref().is_some_and(|truth| truth.value.0),
         feature_angle: pair.feature_angle.as_ref().map(|angle| angle.value.0),
     })

@@ -213,6 +213,7 @@ fn of_pair(pair: &At<raw::Pair>, rest: &[Segment]) -> Span {
         [Field("stabilised"), ..] => raw.stabilise.as_ref().map(|at| &at.span),
         [Field("interference"), ..] => raw.interference.as_ref().map(|at| &at.span),
         [Field("wear"), ..] => raw.wear.as_ref().map(|at| &at.span),
+        [Field("wear_across"), ..] => raw.wear_across.as_ref().map(|at| &at.span),
         [Field("initial"), ..] => raw.name.as_ref().map(|at| &at.span),
         [Field("a"), ..] => rigid_name(raw, 0).map(|at| &at.span),
         [Field("b"), ..] => rigid_name(raw, 1).map(|at| &at.span),

@@ -39,6 +39,10 @@ impl Writer<'_> {
             [0.0, 0.0] => String::new(),
             [a, b] => format!("wear = {{ a = {}, b = {} }}\n", number(a), number(b)),
         };
+        let across = match pair.wear_across {
+            1.0 => String::new(),
+            ratio => format!("wear_across = {}\n", number(ratio)),
+        };
         let search = pair.search_distance.map_or_else(String::new, |distance| {
             format!("search_distance = {}\n", number(distance))
         });
@@ -47,7 +51,7 @@ impl Writer<'_> {
         });
         format!(
             "\n[[pair]]\nname = {}\na = {a}\nb = {b}\nfriction = {friction}\n\
-             enforcement = \"{enforcement}\"\n{search}initial = \"{initial}\"\n{interference}{wear}stabilise = {}\n{features}",
+             enforcement = \"{enforcement}\"\n{search}initial = \"{initial}\"\n{interference}{wear}{across}stabilise = {}\n{features}",
             text(&pair.name),
             pair.stabilised
         )

@@ -95,6 +95,7 @@ pub struct PairBuilder {
     initial: Initial,
     interference: Option<InterferenceFit>,
     wear: [f64; 2],
+    wear_across: f64,
     stabilised: bool,
     feature_angle: Option<f64>,
 }
@@ -110,6 +111,7 @@ pub fn pair(name: impl Into<String>, a: SideBuilder, b: SideBuilder) -> PairBuil
         initial: Initial::AsMeshed,
         interference: None,
         wear: [0.0; 2],
+        wear_across: 1.0,
         stabilised: false,
         feature_angle: None,
     }
@@ -151,6 +153,13 @@ impl PairBuilder {
     /// wears off per pressure and slip, an inverse stress.
     pub fn wear(mut self, a: f64, b: f64) -> Self {
         self.wear = [a, b];
+        self
+    }
+
+    /// Sets the coefficients of wear across a texture over those along it, which [`Self::wear`]
+    /// states: of the texture of side `a`, or of `b` where `a` has none.
+    pub fn wear_across(mut self, ratio: f64) -> Self {
+        self.wear_across = ratio;
         self
     }
 
@@ -201,6 +210,7 @@ impl PairBuilder {
             initial: self.initial,
             interference: self.interference.clone(),
             wear,
+            wear_across: self.wear_across,
             stabilised: self.stabilised,
             feature_angle: self.feature_angle,
         })

@@ -203,6 +203,13 @@ fn of_pair(pair: &Pair, path: &Path, faults: &mut List) {
         let what = format!("the coefficient of wear of side `{side}` of pair `{name}`");
         faults.range(path.clone().field("wear"), &what, coefficient, NOT_NEGATIVE);
     }
+    let what = format!("`wear_across` of pair `{name}`");
+    faults.range(
+        path.clone().field("wear_across"),
+        &what,
+        pair.wear_across,
+        POSITIVE,
+    );
     for (side, paint) in pair.textures.iter().enumerate() {
         let path = || path.clone().field("textures").index(side);
         match paint {

@@ -49,6 +49,9 @@ pub(super) fn check(draft: &Draft<'_>, faults: &mut List) -> Positions {
             };
             faults.push(path.clone().field("interference"), kind);
         }
+        if let Some(kind) = wear_across(pair) {
+            faults.push(path.clone().field("wear_across"), kind);
+        }
         if let Some(kind) = wear(draft, index, pair) {
             faults.push(path.clone().field("wear"), kind);
         }
@@ -176,6 +179,19 @@ fn unsuited(pair: &Pair) -> Option<(&'static str, FaultKind)> {
             Some(("feature_angle", kind))
         }
         _ => None,
+    }
+}
+
+/// Reason why wear cannot depend on a direction.
+fn wear_across(pair: &Pair) -> Option<FaultKind> {
+    let name = || pair.name.clone();
+    match pair.wear_across == 1.0 {
+        true => None,
+        false if pair.wear == [0.0; 2] => Some(FaultKind::WearAcrossNothing { pair: name() }),
+        false if pair.textures == [None, None] => {
+            Some(FaultKind::WearWithoutTexture { pair: name() })
+        }
+        false => None,
     }
 }
 

@@ -191,6 +191,7 @@ impl Scene<'_> {
                     initial: if own { Initial::AsMeshed } else { all.initial },
                     interference: None,
                     wear: [0.0; 2],
+                    wear_across: 1.0,
                     stabilised: all.stabilised && !own,
                     feature_angle: Some(all.feature_angle),
                 });

@@ -32,6 +32,7 @@ class Pair(Made):
         interference: Optional[float] = None,
         curve: Curve = "ramp",
         wear: Union[float, tuple[float, float], None] = None,
+        wear_across: float = 1.0,
         stabilise: bool = False,
         enforcement: Literal["weighted", "collocated"] = "weighted",
         search_distance: Optional[float] = None,
@@ -54,6 +55,8 @@ class Pair(Made):
         wear: of the sides, by which gaps open: the depth that wears off per pressure and slip
             (Archard), the coefficient of wear over the hardness (1/stress). One number for all
             deformable sides, or one for ``a`` and one for ``b``; nothing wears by default.
+        wear_across: coefficients of wear across the texture of ``a``, or of ``b`` where ``a`` has
+            none, over those along it, which ``wear`` states.
         stabilise: if true, viscous forces carry bodies without other restraints across a gap, in
             steps without inertia; they fall to zero within the step.
         enforcement: ``weighted``, or ``collocated`` as in the paper, for comparison.
@@ -98,6 +101,7 @@ class Pair(Made):
             made = made.interfering(value, along)
         if wear is not None:
             made = made.wearing(*_wear(wear, [a, b]))
+        made = made.wearing_across(check.positive(wear_across, "wear_across"))
         if check.word(enforcement, ("weighted", "collocated"), "enforcement") == "collocated":
             made = made.collocated()
         if search_distance is not None:

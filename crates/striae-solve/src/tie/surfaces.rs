@@ -32,6 +32,7 @@ pub(super) fn contact_pair(sides: [(&Mesh, &[Face]); 2], within: Option<f64>) ->
         has_faces: false,
         one_body: false,
         wear: [0.0; 2],
+        wear_across: 1.0,
     }
 }
 

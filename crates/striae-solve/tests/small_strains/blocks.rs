@@ -147,6 +147,7 @@ pub fn model(case: &Case, depth: f64) -> Model {
         initial: Initial::AsMeshed,
         interference: None,
         wear: [0.0; 2],
+        wear_across: 1.0,
         stabilised: false,
         feature_angle: None,
     };

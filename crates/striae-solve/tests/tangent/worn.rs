@@ -5,6 +5,7 @@ use striae_solve::{assembly::StepContext, model::Model, problem::Problem, state:
 use striae_verify::Random;
 
 use crate::{
+    oblique::uniform,
     pair::{PairFunction, Places, Wanted},
     placed::{dome, of_bodies, of_pieces, of_rigid, on_rigid, two_blocks, two_pieces},
     scene::{coulomb, plane},
@@ -71,4 +72,22 @@ fn of_a_surface_that_touches_itself() {
     let places = |problem: &Problem, seed| of_pieces(problem, first_of_second, seed);
     let model = two_pieces(divisions, coulomb(0.5));
     assert_order(model, &EVERY[2..], places, "one surface");
+}
+
+/// Wear that is less or more across grooves than along them, of either side, whose directions turn
+/// with the surfaces.
+#[test]
+fn across_textures() {
+    for (sides, ratio) in [([Some(15.0), Some(70.0)], 3.0), ([None, Some(40.0)], 0.3)] {
+        let directed = |mut model: Model| {
+            model.pairs[0].textures = sides.map(|angle| angle.map(uniform));
+            model.pairs[0].wear_across = ratio;
+            model
+        };
+        let model = directed(two_blocks([1.0, 2.0], [3, 3], coulomb(0.5)));
+        assert_order(model, &EVERY, of_bodies, &format!("bodies, {ratio}"));
+        let places = |problem: &Problem, seed| of_rigid(problem, 0.1, seed);
+        let model = directed(on_rigid(dome(4)));
+        assert_order(model, &EVERY, places, &format!("dome, {ratio}"));
+    }
 }

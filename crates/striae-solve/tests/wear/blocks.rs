@@ -2,7 +2,7 @@
 
 use striae_contact::side::Side;
 use striae_law::bulk::{LameConstants, Material};
-use striae_mesh::NodeId;
+use striae_mesh::{NodeId, Vec3};
 use striae_solve::{
     model::{Axes, BodyId, Curve, Displacement, LoadExtent, LoadKind, Model},
     newton::InStep,
@@ -10,6 +10,7 @@ use striae_solve::{
     state::State,
     warning::Judgement,
 };
+use striae_surface::texture::{Field, Lines, Paint};
 
 use crate::scene::{Places, Run, block, body, coulomb, increments, model, plane, step};
 
@@ -121,6 +122,28 @@ fn depth_under_a_dead_load_is_that_of_archard_everywhere() {
             assert_uniform(&[lost], pressure * worn, 1e-6);
         }
         assert_no_warning(&run);
+    }
+}
+
+/// Grooves at an angle to the way, on the block or on the plane.
+#[test]
+fn depth_across_grooves_is_that_of_the_ratio() {
+    let (pressure, wear, way, ratio) = (0.2, 0.05, 2.0, 3.0_f64);
+    for (side, degrees) in [(0, 0.0_f64), (0, 25.0), (1, 25.0), (1, 90.0)] {
+        let mut model = cube(Pressed::By(pressure), way, wear);
+        let radians = degrees.to_radians();
+        let grooves = Vec3::new(radians.cos(), radians.sin(), 0.0);
+        model.pairs[0].textures[side] = Some(Paint::Field(Field {
+            lines: Lines::Uniform(grooves),
+            turn: 0.0,
+        }));
+        model.pairs[0].wear_across = ratio;
+        let run = Run::completed(model);
+        let along = grooves.dot(&Vec3::new(0.8, 0.6, 0.0));
+        let seen = (along * along + ratio * ratio * (1.0 - along * along)).sqrt();
+        let worn = depths(run.states.last().unwrap(), Side::A);
+        assert_eq!(worn.len(), 12);
+        assert_uniform(&worn, wear * pressure * way * seen, 1e-9);
     }
 }
 

@@ -107,6 +107,7 @@ fn whole(bodies: [&Body; 2]) -> Pair {
         initial: Initial::AsMeshed,
         interference: None,
         wear: [0.0; 2],
+        wear_across: 1.0,
         stabilised: false,
         feature_angle: None,
     }
