@@ -73,12 +73,14 @@ impl Offsets {
             true => left(),
             false => Default::default(),
         };
-        let sizes = configuration.sides.iter().flatten();
-        let largest = sizes.map(|side| side.largest_size).fold(0.0, f64::max);
+        let reach = seating.as_ref().map_or(0.0, |_| {
+            let sizes = configuration.sides.iter().flatten();
+            0.5 * sizes.map(|side| side.largest_size).fold(0.0, f64::max)
+        });
         Self {
             sides,
             seating: seating.map(Arc::new),
-            reach: 0.5 * largest,
+            reach,
         }
     }
 
