@@ -20,9 +20,11 @@
 //! surface between them. Facets beside the edge of the other side take the value of what they
 //! meet; others keep their gaps, and know no interference.
 //!
-//! Overlaps of meshes that are to be pressed out are those of the curved surfaces, whose gap is
-//! `G = 1/2 (sum N_I^A G_I^A + sum N_J^B G_J^B)` with the gaps of the nodes from the curved surface
-//! of the other side, see [`crate::sagitta`] (`G = sum N_I^A G_I^A` on a rigid side). Contact sees
+//! Overlaps of meshes that are to be pressed out are those of the curved surfaces. Over a facet with
+//! the corners `x_i` and the normals `n_i` there its surface lies by
+//! `s = 1/2 sum_{i<j} N_i N_j (n_j - n_i) . (x_j - x_i)` farther out, and the gap `G_I` at a node is
+//! its distance from the facets of the other side less `s`. Between nodes the gap is
+//! `G = 1/2 (sum N_I^A G_I^A + sum N_J^B G_J^B)`, on a rigid side `G = sum N_I^A G_I^A`. Contact sees
 //! `g - (g_0 - G)`, so that facets touch everywhere at once. That is so only where the surfaces
 //! conform: where `G` changes less over the faces that are seated than the correction `g_0 - G`.
 //! Otherwise the correction would not be that of points that come to face each other later.
