@@ -8,7 +8,7 @@
 //! A field of contact is drawn on the smaller side of each pair, and bodies and rigid
 //! surfaces are seen through. Any other field is drawn on the bodies. The projection is
 //! orthographic. Numbers under the colour bar are the extremes of what is drawn, the inside
-//! of bodies included, as in the [report](crate). An [animation](film) has one view and one span
+//! of bodies included, as in the [report](crate). An animation has one view and one span
 //! of colours for all its frames. [`Surfaces`] draws what has no results:
 //! facets in the colours of their names.
 
