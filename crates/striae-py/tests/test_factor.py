@@ -57,7 +57,7 @@ def of_film(slopes: bool) -> st.Friction:
 
 @pytest.mark.parametrize("slopes", [False, True])
 def test_a_state_of_ones_own_evolves_along_the_closed_form(slopes: bool) -> None:
-    run = slider(of_film(slopes)).run()
+    run = slider(of_film(slopes)).run(keep="all")
     for number, found in enumerate(coefficients(run), 1):
         expected = MU * (0.6 + 0.4 * math.exp(-0.02 * number / 0.05))
         assert found == pytest.approx(expected, rel=1e-9)
@@ -67,7 +67,7 @@ def test_the_named_law_is_the_function_of_its_formula() -> None:
     named = st.Coulomb(MU).with_static_kinetic(
         kinetic_over_static=0.6, slip_distance=0.05, healing_time=1e12
     )
-    one, other = (coefficients(slider(law).run()) for law in (named, of_film(False)))
+    one, other = (coefficients(slider(law).run(keep="all")) for law in (named, of_film(False)))
     assert np.allclose(one, other, rtol=1e-9, atol=0)
 
 
@@ -81,7 +81,7 @@ def test_a_factor_sees_arrays_of_all_nodes_in_one_call() -> None:
 
     law = st.Coulomb(MU).with_factor(factor, name="seen", **RANGE)
     calls.clear()
-    run = slider(law).run()
+    run = slider(law).run(keep="all")
     # Nine nodes, five times for differences by pressure and slip rate.
     assert {count for count, _, _ in calls} == {45}
     assert {shape for _, shape, _ in calls} == {(45, 3)}
@@ -118,7 +118,7 @@ def test_a_factor_of_both_textures_goes_with_their_angle() -> None:
 
 
 def test_any_number_of_threads_gives_the_same_bits() -> None:
-    one, two = (slider(of_film(False)).run(threads=threads) for threads in (1, 2))
+    one, two = (slider(of_film(False)).run(threads=threads, keep="all") for threads in (1, 2))
     assert np.array_equal(one.history.table, two.history.table)
 
 
@@ -126,7 +126,7 @@ def test_runs_at_once_share_the_interpreter() -> None:
     found: list[list[float]] = []
 
     def work() -> None:
-        found.append(coefficients(slider(of_film(False)).run(threads=2)))
+        found.append(coefficients(slider(of_film(False)).run(threads=2, keep="all")))
 
     threads = [threading.Thread(target=work) for _ in range(2)]
     for thread in threads:
@@ -202,12 +202,14 @@ def test_wrong_uses() -> None:
 def test_laws_of_named_functions_are_pickled() -> None:
     again = pickle.loads(pickle.dumps(of_film(True)))
     assert repr(again) == "Coulomb(mu=0.4).with_factor(name='film')"
-    assert coefficients(slider(again).run()) == coefficients(slider(of_film(True)).run())
+    runs = (slider(law).run(keep="all") for law in (again, of_film(True)))
+    one, other = (coefficients(run) for run in runs)
+    assert one == other
 
 
 def test_a_step_can_change_a_law_and_keep_its_state() -> None:
     model = slider(of_film(False))
-    run = model.run()
+    run = model.run(keep="all")
     change = model.change_friction("block-floor", of_film(True))
     moved = model.body("block")["all"].displace(x=0.12)
     more = run.continue_with(st.Step("on", change, moved, increments=1))
