@@ -236,8 +236,8 @@ impl Seating {
         self.largest
     }
 
-    /// `g_0`, or `g_0 - G`, of two facets in shares of their corners that sum up to the one at a point; `None`
-    /// where they are not seated.
+    /// `g_0`, or `g_0 - G`, of two facets in shares of their corners that sum up to the one at a
+    /// point; `None` where they are not seated.
     fn gap_of(&self, paired: &PairedFacets) -> Option<[f64; 8]> {
         let met = |side: Side| {
             let facet = paired.facets[side]?;

@@ -282,6 +282,14 @@ pub enum FaultKind {
         /// The pair.
         pair: String,
     },
+    /// Wear that depends on a direction to two textures.
+    #[error(
+        "pair `{pair}` states `wear_across`, but both sides have a texture, and it is not said which one wear depends on; remove it, or one of the textures"
+    )]
+    WearAcrossTwoTextures {
+        /// The pair.
+        pair: String,
+    },
     /// Wear without friction.
     #[error(
         "pair `{pair}` states `wear`, but is frictionless in all steps: sides wear where they slip with friction. State a friction law, with a small coefficient if need be, or remove `wear`"

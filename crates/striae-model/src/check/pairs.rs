@@ -191,6 +191,10 @@ fn wear_across(pair: &Pair) -> Option<FaultKind> {
         false if pair.textures == [None, None] => {
             Some(FaultKind::WearWithoutTexture { pair: name() })
         }
+        // Which one it goes by must not depend on which side is called `a`.
+        false if pair.textures.iter().all(Option::is_some) => {
+            Some(FaultKind::WearAcrossTwoTextures { pair: name() })
+        }
         false => None,
     }
 }

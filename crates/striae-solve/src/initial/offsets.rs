@@ -9,8 +9,9 @@
 //! with the interpolation functions of both sides at the pair of points; against a rigid
 //! side, `o = sum N_I^A o_I^A`. So the pair starts without pressure, and from the second
 //! step on nothing of this is left. Where facets overlap by more or less than the curved surfaces
-//! whose chords they are, and these conform, `o` is that of the surfaces, and the difference is added to the gap as
-//! long as the run lasts; so is an interference. See [`striae_contact::seating`].
+//! whose chords they are, and these conform, `o` is that of the surfaces, and the difference is
+//! added to the gap as long as the run lasts; so is an interference. See
+//! [`striae_contact::seating`].
 //!
 //! Facets are paired up to a distance only, so in the first step contact is searched at least as
 //! deep as the deepest overlap. An overlap of more than half the thickness of the body is refused:

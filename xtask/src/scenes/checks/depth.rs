@@ -3,7 +3,7 @@
 //! Between two bodies, each node of a pair's side is sought in the elements of the
 //! other body; its depth is that below the pair's surface of that body, unless another
 //! face is at less than half the distance: this pair says nothing of what comes through there.
-//! The same holds for the corners of rigid surfaces.
+//! Corners of rigid surfaces are judged likewise.
 //! Depths are over the larger facets of the two sides, as that is how fine a weighted
 //! gap can see; those over the own ones are told.
 
