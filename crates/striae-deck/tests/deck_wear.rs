@@ -71,6 +71,14 @@ fn a_ratio_is_that_of_wear_across_a_texture() {
     assert_eq!(model.pairs[0].wear_across, 2.5);
     let written = write(&model, &Output::default()).unwrap();
     assert!(written.contains("wear_across = 2.5"), "{written}");
+    let other = "facets = \"zmin\"";
+    let both = text.replacen(
+        other,
+        &format!("{other}, texture = {{ uniform = [1, 0, 0] }}"),
+        1,
+    );
+    let said = refused(&both);
+    assert!(said.contains("both sides have a texture"), "{said}");
     let said = refused(&with("wear_across = 2.5"));
     assert!(said.contains("but no `wear`"), "{said}");
 }

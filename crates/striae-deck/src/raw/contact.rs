@@ -42,8 +42,8 @@ table! {
         /// (Archard), the coefficient of wear over the hardness, an inverse stress. One number for
         /// all deformable sides, or a table with one for each. Default: none.
         optional wear: Wear,
-        /// Coefficients of wear across the texture of side `a`, or of `b` where `a` has none, over
-        /// those along it, which `wear` states. Default: 1.
+        /// Coefficients of wear across the texture of the side that has one, over those along it,
+        /// which `wear` states. Default: 1.
         optional wear_across: Positive,
         /// `true`: viscous forces between the sides carry bodies without other restraints across a
         /// gap, in steps without inertia. They fall to zero in the course of each step. Default:
