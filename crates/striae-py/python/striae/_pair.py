@@ -55,8 +55,8 @@ class Pair(Made):
         wear: of the sides, by which gaps open: the depth that wears off per pressure and slip
             (Archard), the coefficient of wear over the hardness (1/stress). One number for all
             deformable sides, or one for ``a`` and one for ``b``; nothing wears by default.
-        wear_across: coefficients of wear across the texture of ``a``, or of ``b`` where ``a`` has
-            none, over those along it, which ``wear`` states.
+        wear_across: coefficients of wear across the texture of the side that has one, over those
+            along it, which ``wear`` states.
         stabilise: if true, viscous forces carry bodies without other restraints across a gap, in
             steps without inertia; they fall to zero within the step.
         enforcement: ``weighted``, or ``collocated`` as in the paper, for comparison.
