@@ -123,3 +123,27 @@ fn files_of_testers_are_fitted_and_the_convention_is_said() {
     assert!(told.contains("mu_along = 0.2, mu_across = 0.4"), "{told}");
     assert!(told.contains("angle 0 is slip along the grooves"), "{told}");
 }
+
+/// Two specimens whose friction differs by a fifth: the interval is that of their scatter.
+#[test]
+fn specimens_are_told_and_widen_the_intervals() {
+    let text = "Probe,angle,friction\nA,0,0.22\nA,0,0.22\nB,0,0.18\nB,0,0.18\n";
+    let words = ["--law", "coulomb"];
+    let (output, _) = fit(
+        text,
+        &[&words[..], &["--columns", "specimen=Probe"]].concat(),
+    );
+    let told = String::from_utf8_lossy(&output.stdout);
+    for words in [
+        "mu = 0.2 }",
+        // 0.02 times Student's t for one degree of freedom, 12.706.
+        "95 % within -0.0541 .. 0.4541",
+        "specimens: 2; friction over that of the law (readings): `A` 1.100 (2), `B` 0.900 (2)",
+    ] {
+        assert!(told.contains(words), "{told}");
+    }
+    let (output, _) = fit(text, &words);
+    let told = String::from_utf8_lossy(&output.stdout);
+    assert!(told.contains("95 % within 0.1633 .. 0.2367"), "{told}");
+    assert!(told.contains("unused columns: `Probe`"), "{told}");
+}

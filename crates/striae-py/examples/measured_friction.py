@@ -17,11 +17,12 @@ snake = st.fit_friction(read.angles, read.forces, st.Nap)
 print("snake", {name: round(value, 4) for name, value in snake.constants.items()})
 
 # A spider: 282 readings in two directions. Each direction has its coefficient and interval.
-angles, friction, _, _ = st.read_measurements(BOOK / "spider-pads.csv")
+read = st.read_measurements(BOOK / "spider-pads.csv")
+angles, friction, legs = read.angles, read.forces, np.array(read.specimen)
 found = {}
 for name, angle in [("pulled", 0.0), ("pushed", 180.0)]:
     here = angles == angle
-    fit = st.fit_friction(angles[here], friction[here], st.Coulomb)
+    fit = st.fit_friction(angles[here], friction[here], st.Coulomb, specimen=legs[here])
     found[name] = fit.constants["mu"]
     low, high = fit.intervals["mu"] or (np.nan, np.nan)
     print(f"spider {name}: {found[name]:.4f}, 95 % within {low:.4f} .. {high:.4f}")

@@ -17,13 +17,14 @@ use crate::{
 };
 
 /// Angles of slip and between the textures (radians), friction against and, where it was
-/// measured, across slip, and spreads.
+/// measured, across slip, spreads, and numbers of the specimens.
 type Measured<'py> = (
     PyReadonlyArray1<'py, f64>,
     PyReadonlyArray1<'py, f64>,
     PyReadonlyArray1<'py, f64>,
     Option<PyReadonlyArray1<'py, f64>>,
     PyReadonlyArray1<'py, f64>,
+    Vec<usize>,
 );
 
 /// Columns as arrays handed to Python.
@@ -33,14 +34,22 @@ type Columns<'py> = (
     Array1<'py, f64>,
     Option<Array1<'py, f64>>,
     Array1<'py, f64>,
+    Vec<String>,
 );
 
 /// Name, value and interval of a constant.
 type Constant = (String, f64, Option<(f64, f64)>);
 
 /// The law, its constants, the standard deviation of a reading, degrees of freedom, and
-/// whether the law is at the bound of what dissipates.
-type Found = (Friction, Vec<Constant>, Option<f64>, usize, bool);
+/// whether the law is at the bound of what dissipates, and factors of the specimens by number.
+type Found = (
+    Friction,
+    Vec<Constant>,
+    Option<f64>,
+    usize,
+    bool,
+    Vec<(usize, f64)>,
+);
 
 /// Fits a law that is known by its name in decks, with words of its parameters.
 #[pyfunction]
@@ -68,7 +77,7 @@ pub fn fit_friction(
         };
         sought = sought.with(name, word);
     }
-    let (slip, theta, against, across, spread) = &measured;
+    let (slip, theta, against, across, spread, specimens) = &measured;
     let [slip, theta, against, spread] = [slip, theta, against, spread].map(|one| one.as_array());
     let across = across.as_ref().map(|across| across.as_array());
     let readings = (0..slip.len()).map(|i| Reading {
@@ -77,6 +86,7 @@ pub fn fit_friction(
         across: across.map(|across| across[i]),
         theta: theta[i],
         spread: spread[i],
+        specimen: specimens[i],
     });
     let readings: Vec<Reading> = readings.collect();
     let found = fit(&sought, &readings, level).map_err(|error| refused("fit_friction", error))?;
@@ -84,20 +94,23 @@ pub fn fit_friction(
         let interval = one.interval.map(|[low, high]| (low, high));
         (one.name.to_string(), one.value, interval)
     });
+    let factors = found.specimens.iter().map(|one| (one.number, one.factor));
     Ok((
         Friction(found.friction),
         constants.collect(),
         found.deviation,
         found.degrees_of_freedom,
         found.standing == Standing::AtBound,
+        factors.collect(),
     ))
 }
 
 /// Angles of slip and between the textures (radians), friction against and, where it was
-/// measured, across slip, and spreads in the text of a file of measurements.
+/// measured, across slip, spreads, and names of the specimens, where the file has them, in the
+/// text of a file of measurements.
 #[pyfunction]
 pub fn measurements_of<'py>(py: Python<'py>, text: &str, file: &str) -> PyResult<Columns<'py>> {
-    let readings = measurements::parse(text, file).map_err(|faults| {
+    let measured = measurements::read(text, file, &Default::default()).map_err(|faults| {
         let told = faults.faults.into_iter().map(|fault| {
             let at = fault
                 .place
@@ -106,6 +119,14 @@ pub fn measurements_of<'py>(py: Python<'py>, text: &str, file: &str) -> PyResult
         });
         model_error(told.collect())
     })?;
+    let readings = measured.readings;
+    let names = match measured.specimens {
+        none if none.is_empty() => Vec::new(),
+        names => {
+            let name = |reading: &Reading| names[reading.specimen].clone();
+            readings.iter().map(name).collect()
+        }
+    };
     let column =
         |value: fn(&Reading) -> f64| PyArray1::from_vec(py, readings.iter().map(value).collect());
     let across: Option<Vec<f64>> = readings.iter().map(|reading| reading.across).collect();
@@ -115,5 +136,6 @@ pub fn measurements_of<'py>(py: Python<'py>, text: &str, file: &str) -> PyResult
         column(|reading| reading.against),
         across.map(|across| PyArray1::from_vec(py, across)),
         column(|reading| reading.spread),
+        names,
     ))
 }

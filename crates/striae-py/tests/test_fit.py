@@ -130,6 +130,14 @@ def test_published_measurements_of_a_spider_have_two_coefficients() -> None:
         assert fit.constants["mu"] == pytest.approx(here.mean()) == pytest.approx(mean)
         half = 1.9770537 * here.std(ddof=1) / np.sqrt(141)
         assert fit.intervals["mu"] == pytest.approx((mean - half, mean + half), rel=1e-6)
+    assert read.specimen is not None
+    legs = [name for name, angle in zip(read.specimen, read.angles) if angle == 0.0]
+    pulled = st.fit_friction(
+        np.zeros(141), read.forces[read.angles == 0.0], st.Coulomb, specimen=legs
+    )
+    assert sorted(pulled.specimens) == [f"leg pair {i}" for i in (1, 2, 3, 4)]
+    # The table of the book.
+    assert pulled.intervals["mu"] == pytest.approx((0.875, 1.547), abs=6e-4)
     with pytest.raises(st.ModelError, match="needs slip in three directions"):
         st.fit_friction(read.angles, read.forces, st.Nap)
 
@@ -147,3 +155,18 @@ def test_faults_of_measurements_have_places(tmp_path: Path) -> None:
 def test_a_law_is_a_class() -> None:
     with pytest.raises(TypeError, match="law: one of the classes Coulomb, TwoTextures, Orthotropic"):
         st.fit_friction([0], [0.1], st.Frictionless)
+
+
+def test_the_scatter_between_specimens_gives_the_intervals(tmp_path: Path) -> None:
+    file = tmp_path / "m.csv"
+    file.write_text("specimen,angle,friction\nA,0,.22\nA,0,.22\nB,0,.18\nB,0,.18\n")
+    read = st.read_measurements(file)
+    assert read.specimen == ["A", "A", "B", "B"]
+    fit = st.fit_friction(read.angles, read.forces, st.Coulomb, specimen=read.specimen)
+    assert fit.specimens == pytest.approx({"A": 1.1, "B": 0.9})
+    # Student's t for one degree of freedom.
+    assert fit.intervals["mu"] == pytest.approx((0.2 - 0.02 * 12.7062047, 0.2 + 0.02 * 12.7062047))
+    alone = st.fit_friction(read.angles, read.forces, st.Coulomb)
+    assert alone.specimens == {} and alone.intervals["mu"][0] > 0.16
+    with pytest.raises(st.ModelError, match="names: 2, but angles: 4; each needs one"):
+        st.fit_friction(read.angles, read.forces, st.Coulomb, specimen=["A", "B"])

@@ -13,6 +13,7 @@
 //! | `direction` | direction of `-tau`, the force that drags the textured surface, counted as `angle` (degrees); optional |
 //! | `theta` | angle between the textures of two surfaces (degrees); optional, 0 |
 //! | `spread` | standard deviation in proportion to that of other readings (no unit); optional, 1 |
+//! | `specimen` | name or number of the specimen that was measured; optional |
 //!
 //! Angles may also count from along the texture, see [`AngleFrom`].
 
@@ -26,7 +27,7 @@ use striae_law::fit::Reading;
 use header::Header;
 
 /// Names of columns.
-const COLUMNS: [&str; 7] = [
+const COLUMNS: [&str; 8] = [
     "angle",
     "friction",
     "tangential",
@@ -34,6 +35,7 @@ const COLUMNS: [&str; 7] = [
     "direction",
     "theta",
     "spread",
+    "specimen",
 ];
 
 /// Direction that angles count from.
@@ -94,6 +96,8 @@ impl FromStr for NamedColumn {
 pub struct Measured {
     /// The readings, with angles from across the texture.
     pub readings: Vec<Reading>,
+    /// Names of the specimens by number, in the order of their first readings.
+    pub specimens: Vec<String>,
     /// Notes on columns that were passed over.
     pub notes: Vec<String>,
 }
@@ -189,7 +193,9 @@ fn measured(text: &str, form: &Form, faults: &mut Vec<MeasurementFault>) -> Opti
     if header.is_named() {
         lines.next();
     }
-    let rows = lines.filter_map(|(number, line)| header.reading(number, line, faults));
+    let mut specimens = Vec::new();
+    let rows =
+        lines.filter_map(|(number, line)| header.reading(number, line, &mut specimens, faults));
     let mut readings: Vec<Reading> = rows.collect();
     if readings.is_empty() && faults.is_empty() {
         faults.push(fault(None, "it has no readings below the names of columns"));
@@ -200,7 +206,11 @@ fn measured(text: &str, form: &Form, faults: &mut Vec<MeasurementFault>) -> Opti
         }
     }
     let notes = header.note().into_iter().collect();
-    Some(Measured { readings, notes })
+    Some(Measured {
+        readings,
+        specimens,
+        notes,
+    })
 }
 
 #[cfg(test)]
@@ -293,6 +303,21 @@ mod tests {
         let told = read(text, "m.csv", &missing).unwrap_err().to_string();
         assert!(
             told.contains("m.csv:2:1: unknown column `Fy`; there are `Test`"),
+            "{told}"
+        );
+    }
+
+    #[test]
+    fn specimens_are_numbered_by_their_names() {
+        let text = "specimen,angle,friction\nleft,0,0.2\nright,0,0.3\nleft,90,0.4\n";
+        let measured = read(text, "m.csv", &Form::default()).unwrap();
+        let numbers: Vec<usize> = measured.readings.iter().map(|one| one.specimen).collect();
+        assert_eq!(numbers, [0, 1, 0]);
+        assert_eq!(measured.specimens, ["left", "right"]);
+        let told = parse("specimen,angle,friction\n,0,0.2\n", "m.csv");
+        let told = told.unwrap_err().to_string();
+        assert!(
+            told.contains("m.csv:2:1: the name of the specimen is missing"),
             "{told}"
         );
     }

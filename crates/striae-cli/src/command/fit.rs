@@ -33,8 +33,9 @@ use sought::Law;
 /// textures from the bisector of both; `--angle-from along` counts from the grooves);
 /// `friction`, tangential over normal force, or the forces `tangential` and `normal`; and where
 /// they are known `direction`, the angle of the force that drags the textured surface, `theta`,
-/// the angle between the textures of two surfaces, and `spread`, the standard deviation of a
-/// reading in proportion to others. Other columns are not used.
+/// the angle between the textures of two surfaces, `spread`, the standard deviation of a reading
+/// in proportion to others, and `specimen`, the name of the one that was measured; readings of
+/// one specimen are not taken as independent. Other columns are not used.
 #[derive(clap::Args)]
 pub struct Arguments {
     /// The file of measurements.
@@ -100,12 +101,18 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     let file = arguments.measurements.display().to_string();
     let text = std::fs::read_to_string(&arguments.measurements)
         .map_err(|cause| MeasurementFaults::unreadable(&file, &cause))?;
-    let Measured { readings, notes } = measurements::read(&text, &file, &arguments.form())?;
+    let measured = measurements::read(&text, &file, &arguments.form())?;
+    let Measured {
+        readings,
+        specimens,
+        notes,
+    } = measured;
     let Law(sought) = &arguments.law;
     let found = fit(sought, &readings, arguments.level)?;
     let said = Said {
         deck: snippet(sought, &found),
         convention: arguments.convention(&found.friction),
+        specimens,
         notes,
     };
     match arguments.json {
@@ -146,6 +153,7 @@ fn draw(
 struct Said {
     deck: String,
     convention: Option<&'static str>,
+    specimens: Vec<String>,
     notes: Vec<String>,
 }
 
@@ -157,14 +165,29 @@ impl Said {
             intervals(found),
             verdict(found, readings)
         );
-        for line in self
-            .convention
-            .into_iter()
-            .chain(self.notes.iter().map(String::as_str))
-        {
+        let notes = self.notes.iter().cloned();
+        let convention = self.convention.map(str::to_owned);
+        let lines = self.beside_the_law(found, readings);
+        for line in lines.into_iter().chain(convention).chain(notes) {
             text += &format!("  {line}\n");
         }
         text
+    }
+
+    /// Friction of the specimens over that of the law, in a sentence.
+    fn beside_the_law(&self, found: &Fit, readings: &[Reading]) -> Option<String> {
+        let told = found.specimens.iter().map(|one| {
+            let of = readings.iter().filter(|own| own.specimen == one.number);
+            let (name, count) = (&self.specimens[one.number], of.count());
+            format!("`{name}` {:.3} ({count})", one.factor)
+        });
+        let told: Vec<String> = told.collect();
+        let text = format!(
+            "specimens: {}; friction over that of the law (readings): {}",
+            told.len(),
+            told.join(", ")
+        );
+        (!told.is_empty()).then_some(text)
     }
 
     fn json(&self, found: &Fit, readings: &[Reading]) -> Value {
@@ -174,6 +197,10 @@ impl Said {
                 .filter(|ends| ends.iter().all(|end| end.is_finite()));
             json!({ "name": one.name.to_string(), "value": one.value, "interval": interval })
         });
+        let specimens = found
+            .specimens
+            .iter()
+            .map(|one| json!({ "name": self.specimens[one.number], "factor": one.factor }));
         json!({
             "deck": self.deck,
             "constants": constants.collect::<Vec<_>>(),
@@ -182,6 +209,7 @@ impl Said {
             "degrees_of_freedom": found.degrees_of_freedom,
             "deviation": found.deviation,
             "at_bound": found.standing == Standing::AtBound,
+            "specimens": specimens.collect::<Vec<_>>(),
             "convention": self.convention,
             "notes": self.notes,
         })

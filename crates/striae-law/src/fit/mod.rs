@@ -32,7 +32,9 @@
 //! ```
 //!
 //! with Student's `t` for `n - k` degrees of freedom at the level asked for: exact where the
-//! law is linear in its constants. Quotients have Fieller's interval (1954, "Some problems in
+//! law is linear in its constants. Readings of several specimens are independent from specimen
+//! to specimen only; then the scatter between specimens gives the intervals, see
+//! [`Fit::specimens`]. Quotients have Fieller's interval (1954, "Some problems in
 //! interval estimation", J. R. Stat. Soc. B 16, 175-185), exact too, and without end where
 //! the divisor may be zero. Each interval is about one constant; for all `k` together ask for
 //! the level `1 - (1 - level)/k` (Bonferroni). There are none without degrees of freedom, nor
@@ -44,6 +46,7 @@ mod basis;
 mod error;
 mod least_squares;
 mod reading;
+mod specimens;
 mod student;
 #[cfg(test)]
 mod tests;
@@ -59,6 +62,7 @@ use crate::declared::{self, Absent, Declared, Value, Values};
 use crate::friction::{Basis, Direction, Friction, LAWS};
 use basis::Shape;
 use reading::mean_friction;
+use specimens::Equations;
 
 /// Least dissipation of a fitted law over the mean measured friction.
 const LEAST_DISSIPATION: f64 = 1e-3;
@@ -91,6 +95,18 @@ pub struct Fit {
     pub level: f64,
     /// Influences that shape the law.
     pub standing: Standing,
+    /// The specimens, by number, where there are several. Their scatter gives the intervals,
+    /// with one degree of freedom less than there are specimens.
+    pub specimens: Vec<Specimen>,
+}
+
+/// A specimen beside the law that was fitted to all.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Specimen {
+    /// Its number, see [`Reading::specimen`].
+    pub number: usize,
+    /// Factor by which its friction is that of the law, by least squares (no unit).
+    pub factor: f64,
 }
 
 /// A constant of a law.
@@ -211,10 +227,19 @@ pub fn fit(sought: &Sought, readings: &[Reading], level: f64) -> Result<Fit, Fit
     };
     let (q, free, inverse) = parameters(&shape, readings, mean).ok_or_else(undetermined)?;
     let friction = shape.friction(&q)?;
-    let (residual, numbers) = squares(&shape, readings, &q);
-    let degrees_of_freedom = numbers - q.len();
+    let equations = equations(&shape, readings, &q);
+    let degrees_of_freedom = equations.measured.len() - q.len();
+    let residual = equations.residuals(&q).norm_squared();
     let variance = (degrees_of_freedom > 0).then(|| residual / degrees_of_freedom as f64);
+    let specimens = match specimens::numbers(readings) {
+        one if one.len() < 2 => Vec::new(),
+        several => several,
+    };
     let spread = match (variance, free) {
+        (Some(_), true) if !specimens.is_empty() => Some((
+            equations.covariance(&q, &inverse, &specimens),
+            student::two_sided(level, specimens.len() - 1),
+        )),
         (Some(variance), true) => Some((
             inverse * variance,
             student::two_sided(level, degrees_of_freedom),
@@ -240,6 +265,7 @@ pub fn fit(sought: &Sought, readings: &[Reading], level: f64) -> Result<Fit, Fit
         } else {
             Standing::AtBound
         },
+        specimens: equations.factors(&q, &specimens),
     })
 }
 
@@ -253,7 +279,7 @@ fn parameters(
     let mut q = DVector::from_element(shape.count(), mean);
     let mut result = None;
     for _ in 0..ITERATIONS {
-        let (rows, measured) = equations(shape, readings, &q);
+        let Equations { rows, measured, .. } = equations(shape, readings, &q);
         let bounds = bounds(shape, &q);
         let found = least_squares::least_squares(&rows, &measured, &bounds, least)?;
         let change = (&found.q - &q).norm();
@@ -267,13 +293,10 @@ fn parameters(
 }
 
 /// Rows and right-hand sides, over the spread.
-fn equations(
-    shape: &Shape<'_>,
-    readings: &[Reading],
-    q: &DVector<f64>,
-) -> (DMatrix<f64>, DVector<f64>) {
+fn equations(shape: &Shape<'_>, readings: &[Reading], q: &DVector<f64>) -> Equations {
     let mut rows: Vec<f64> = Vec::new();
     let mut measured = Vec::new();
+    let mut specimens = Vec::new();
     for (number, reading) in readings.iter().enumerate() {
         let (sine, cosine) = reading.slip.sin_cos();
         let direction = Direction::new(reading.theta, reading.slip);
@@ -281,17 +304,18 @@ fn equations(
         let mut note = |direction: Vector2<f64>, value: f64| {
             rows.extend(basis.iter().map(|w| w.dot(&direction) / reading.spread));
             measured.push(value / reading.spread);
+            specimens.push(reading.specimen);
         };
         note(Vector2::new(cosine, sine), reading.against);
         if let (Some(across), true) = (reading.across, shape.knows_across()) {
             note(Vector2::new(-sine, cosine), across);
         }
     }
-    let count = measured.len();
-    (
-        DMatrix::from_row_slice(count, shape.count(), &rows),
-        DVector::from_vec(measured),
-    )
+    Equations {
+        rows: DMatrix::from_row_slice(measured.len(), shape.count(), &rows),
+        measured: DVector::from_vec(measured),
+        specimens,
+    }
 }
 
 /// Rows of the parameters that must not fall below the least dissipation.
@@ -304,10 +328,4 @@ fn bounds(shape: &Shape<'_>, q: &DVector<f64>) -> DMatrix<f64> {
         }
     }
     bounds
-}
-
-/// Sum of the squared residuals, and how many there are.
-fn squares(shape: &Shape<'_>, readings: &[Reading], q: &DVector<f64>) -> (f64, usize) {
-    let (rows, measured) = equations(shape, readings, q);
-    ((rows * q - &measured).norm_squared(), measured.len())
 }

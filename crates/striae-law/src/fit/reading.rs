@@ -16,6 +16,8 @@ pub struct Reading {
     pub theta: f64,
     /// Standard deviation in proportion to that of other readings.
     pub spread: f64,
+    /// Number of the specimen that was measured; readings of one specimen share its error.
+    pub specimen: usize,
 }
 
 impl Reading {
@@ -27,6 +29,7 @@ impl Reading {
             across: None,
             theta: 0.0,
             spread: 1.0,
+            specimen: 0,
         }
     }
 

@@ -31,6 +31,8 @@ class Measurements(NamedTuple):
     """Angles between the textures of two surfaces, of shape (n,) (degrees)."""
     spread: Floats
     """Standard deviations in proportion to each other, of shape (n,) (no unit)."""
+    specimen: Optional[list[str]] = None
+    """Names of the specimens, one a reading; ``None`` where the file has none."""
 
 
 def read_measurements(path: Union[str, os.PathLike[str]]) -> Measurements:
@@ -38,7 +40,8 @@ def read_measurements(path: Union[str, os.PathLike[str]]) -> Measurements:
 
     One reading a line, numbers separated by commas, under a line with the names of columns:
     ``angle`` (degrees), ``friction`` (no unit) or ``tangential`` and ``normal`` (force), and where
-    they are known ``direction`` and ``theta`` (degrees) and ``spread`` (no unit). What follows a
+    they are known ``direction`` and ``theta`` (degrees), ``spread`` (no unit) and the name of the
+    ``specimen``. What follows a
     ``#`` is passed over. All faults are one :class:`ModelError` with lines and columns.
 
     path: the file.
@@ -49,14 +52,14 @@ def read_measurements(path: Union[str, os.PathLike[str]]) -> Measurements:
             text = opened.read()
     except (OSError, UnicodeDecodeError) as error:
         raise refuse(file, f"it cannot be read: {error}") from None
-    slip, theta, against, across, spread = native.measurements_of(text, file)
+    slip, theta, against, across, spread, names = native.measurements_of(text, file)
     forces = against
     if across is not None:
         cosine, sine = np.cos(slip), np.sin(slip)
         forces = np.column_stack(
             [against * cosine - across * sine, against * sine + across * cosine]
         )
-    return Measurements(np.degrees(slip), forces, np.degrees(theta), spread)
+    return Measurements(np.degrees(slip), forces, np.degrees(theta), spread, names or None)
 
 
 class FrictionFit:
@@ -69,8 +72,10 @@ class FrictionFit:
         at_bound: bool,
         level: float,
         measured: tuple[Floats, Floats, Floats, Optional[Floats]],
+        specimens: dict[Any, float],
     ) -> None:
         """Fits are made by :func:`fit_friction`."""
+        self._specimens = specimens
         constants, self._deviation, self._freedom = found
         self._friction, self._at_bound, self._level = friction, at_bound, level
         self._constants = {name: value for name, value, _ in constants}
@@ -118,6 +123,12 @@ class FrictionFit:
         closest one that does not."""
         return self._at_bound
 
+    @property
+    def specimens(self) -> dict[Any, float]:
+        """Factors by which the friction of each specimen is that of the law, by the names of the
+        specimens; empty where there is one (no unit)."""
+        return dict(self._specimens)
+
     def plot(self, axes: Optional[Axes] = None) -> Axes:
         """Draws friction against slip over the direction of slip, measured and by the law.
 
@@ -139,13 +150,15 @@ def fit_friction(
     *,
     theta: Union[float, Sequence[float], Floats] = 0.0,
     spread: Union[float, Sequence[float], Floats] = 1.0,
+    specimen: Optional[Sequence[Any]] = None,
     level: float = 0.95,
     **words: str,
 ) -> FrictionFit:
     """Finds the constants of a friction law from measurements, by least squares.
 
     The law that is found dissipates in all directions of slip. Readings are taken as
-    independent and normally distributed.
+    independent and normally distributed; of several specimens only the specimens are, and the
+    scatter between them gives the intervals.
 
     angles: direction in which the textured surface slips at each reading, from its texture
         ``a`` (across the grooves, against a nap), counter-clockwise as seen from outside it;
@@ -156,6 +169,7 @@ def fit_friction(
     law: the class of the law, such as :class:`Nap`.
     theta: angle between the textures of two surfaces at each reading (degrees).
     spread: standard deviation of each reading in proportion to that of others (no unit).
+    specimen: name or number of the specimen of each reading, of shape (n,).
     level: probability with which each constant lies in its interval (no unit).
     words: those of the law, by their names, such as ``slip_rule="associated"`` of
         :class:`Orthotropic`.
@@ -167,9 +181,10 @@ def fit_friction(
     against, across = _forces(forces, slip)
     textures = np.radians(_column(theta, len(slip), "theta"))
     spreads = _column(spread, len(slip), "spread")
-    measured = (slip, textures, against, across, spreads)
+    names, numbers = _numbered(specimen, len(slip))
+    measured = (slip, textures, against, across, spreads, numbers)
     probability = check.number(level, "level")
-    found, constants, deviation, freedom, at_bound = native.fit_friction(
+    found, constants, deviation, freedom, at_bound, factors = native.fit_friction(
         FITTED[law], list(words.items()), measured, probability
     )
     stated = found.statement()
@@ -178,7 +193,20 @@ def fit_friction(
     friction = maker(**dict(stated[1]))
     kept = (frozen(slip), frozen(textures), frozen(against), across)
     summary = (constants, deviation, freedom)
-    return FrictionFit(friction, summary, at_bound, probability, kept)
+    specimens = {names[number]: factor for number, factor in factors}
+    return FrictionFit(friction, summary, at_bound, probability, kept, specimens)
+
+
+def _numbered(specimen: Optional[Sequence[Any]], count: int) -> tuple[list[Any], list[int]]:
+    """Names of the specimens, and the number of that of each reading."""
+    if specimen is None:
+        return [], [0] * count
+    each = list(specimen)
+    if len(each) != count:
+        raise refuse("specimen", f"names: {len(each)}, but angles: {count}; each needs one")
+    names = list(dict.fromkeys(each))
+    numbers = {name: number for number, name in enumerate(names)}
+    return names, [numbers[name] for name in each]
 
 
 def _column(value: Any, count: Optional[int], path: str) -> Floats:

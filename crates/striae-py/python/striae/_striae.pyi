@@ -163,7 +163,7 @@ class Material:
 def fit_friction(
     law: str,
     words: list[tuple[str, str]],
-    measured: tuple[_Floats, _Floats, _Floats, Optional[_Floats], _Floats],
+    measured: tuple[_Floats, _Floats, _Floats, Optional[_Floats], _Floats, list[int]],
     level: float,
 ) -> tuple[
     Friction,
@@ -171,11 +171,12 @@ def fit_friction(
     Optional[float],
     int,
     bool,
+    list[tuple[int, float]],
 ]: ...
 
 def measurements_of(
     text: str, file: str
-) -> tuple[_Floats, _Floats, _Floats, Optional[_Floats], _Floats]: ...
+) -> tuple[_Floats, _Floats, _Floats, Optional[_Floats], _Floats, list[str]]: ...
 
 def declared_laws() -> list[tuple[str, list[tuple[str, str, bool, list[_Told]]]]]: ...
 

@@ -152,11 +152,13 @@ impl Header {
         fields.find(|(known, _)| *known == name).map(|(_, at)| *at)
     }
 
-    /// The reading of a line, or `None` after its faults have been noted.
+    /// The reading of a line, or `None` after its faults have been noted; `specimens` are the
+    /// names so far.
     pub(super) fn reading(
         &self,
         number: usize,
         line: &str,
+        specimens: &mut Vec<String>,
         faults: &mut Vec<MeasurementFault>,
     ) -> Option<Reading> {
         let before = faults.len();
@@ -191,9 +193,15 @@ impl Header {
         let direction = value("direction", Sign::Any);
         let theta = value("theta", Sign::Any);
         let spread = value("spread", Sign::Positive);
+        let specimen = self.field("specimen").map(|field| fields[field]);
+        if let Some((column, "")) = specimen {
+            let message = "the name of the specimen is missing";
+            faults.push(fault(Some((number, column)), message));
+        }
         if faults.len() > before {
             return None;
         }
+        let specimen = specimen.map_or(0, |(_, name)| numbered(name, specimens));
         let (slip, friction) = (angle?.to_radians(), friction?);
         let reading = match direction {
             Some(direction) => Reading::directed(slip, friction, direction.to_radians()),
@@ -202,9 +210,19 @@ impl Header {
         Some(Reading {
             theta: theta.unwrap_or(0.0).to_radians(),
             spread: spread.unwrap_or(1.0),
+            specimen,
             ..reading
         })
     }
+}
+
+/// Number of a name, which is added where it is new.
+fn numbered(name: &str, names: &mut Vec<String>) -> usize {
+    let known = names.iter().position(|known| known == name);
+    known.unwrap_or_else(|| {
+        names.push(name.to_owned());
+        names.len() - 1
+    })
 }
 
 /// Bound of a number.
