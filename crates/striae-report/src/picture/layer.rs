@@ -70,14 +70,15 @@ impl<'a> Layers<'a> {
             is_contact,
         };
         let extremes = extremes(&shown, field, view);
-        let shown = shown.into_iter();
-        let shown = shown.map(|part| {
-            let pressed = pressed(part).filter(|pressed| pressed.contains(&true));
-            Layer {
-                // A whole skin would hide what touches; where nothing does, there is no other.
-                pressed: pressed.filter(|_| is_contact).unwrap_or_default(),
-                ..Layer::colored(part, parts, picture, field, view)
-            }
+        let touching = |part: &Part| pressed(part).filter(|points| points.contains(&true));
+        // Where some sides touch, whole skins of others would hide them.
+        let is_touching = is_contact && shown.iter().any(|part| touching(part).is_some());
+        let shown = shown
+            .into_iter()
+            .filter(|part| !is_touching || touching(part).is_some());
+        let shown = shown.map(|part| Layer {
+            pressed: touching(part).filter(|_| is_contact).unwrap_or_default(),
+            ..Layer::colored(part, parts, picture, field, view)
         });
         let shown = shown.collect();
         Ok(Self::with(parts, picture, subject, extremes, shown))
