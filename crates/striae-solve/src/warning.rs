@@ -15,7 +15,7 @@
 //! | `passage` | the same for what has passed through, see there | 0 |
 //! | `coarse` | facet size over that which would do for the zone of contact, where the force of the pair is largest, see [`crate::audit`] | 1 |
 //! | `overlap` | the same for bodies inside themselves or others where no pair sees it, over the smaller facet | 0.1 |
-//! | `unfelt` | the same while the pair has no force at all | 0.02 |
+//! | `unfelt` | the same while no pair of these bodies has a force | 0.02 |
 //! | `creation` | negative friction work over the largest energy | 1e-6 |
 //! | `gain` | work that friction does at a node that slips over all that it does on its side in an increment, see [`crate::audit`] | 0.01 |
 //! | `contact` | energy that contact has made, beyond friction, over the largest external work or work of actuation | 0.1 |
@@ -273,10 +273,17 @@ impl Judgement {
             self.stabilisation(after);
         }
         self.note(Kind::Rotation, None, rotation(problem, after), after.time);
-        for (pair, report) in pairs(problem, after).iter().enumerate() {
+        let reports = pairs(problem, after);
+        for (pair, report) in reports.iter().enumerate() {
             self.pair(problem, pair, report, [before, after]);
             self.passage(pair, &interferences[pair], after.time);
-            self.penetration(problem, pair, (after, in_step), report.max_pressure);
+            // Faces of one body share edges, where the pair of either of them feels contact.
+            let own = &problem.model.pairs[pair];
+            let beside = problem.model.pairs.iter().zip(&reports);
+            let felt = beside.filter(|(other, _)| own.is_beside(other));
+            let pressure = felt.map(|(_, report)| report.max_pressure);
+            let pressure = pressure.fold(0.0, f64::max);
+            self.penetration(problem, pair, (after, in_step), pressure);
         }
         for overlap in overlaps {
             let share = overlap.found.share();

@@ -81,8 +81,9 @@ fn words(model: &Model, pair: PairId, fit: &Fit) -> String {
 
 /// Returns whether no facets of the sides face each other, as far as their normals tell.
 fn looks_away(model: &Model, pair: &Pair) -> bool {
-    // Parts of one body may face each other only once it is bent.
-    if pair.is_within_a_body() {
+    // Parts of one body may face each other only once it is bent, and contact of everything has
+    // pairs of all faces.
+    if pair.is_within_a_body() || !pair.is_expected_to_touch() {
         return false;
     }
     let a = area_vectors(model, &pair.a);
