@@ -6,7 +6,11 @@ use std::{
 };
 
 use striae::{Finished, Simulation, case_name, sensitivity::of_deck};
-use striae_output::{Existing, checkpoint::FILE, summary::Summary};
+use striae_output::{
+    Existing,
+    checkpoint::FILE,
+    summary::{PairSummary, Summary},
+};
 use striae_solve::outcome::Ending;
 
 use crate::{
@@ -238,7 +242,10 @@ pub fn told(summary: &Summary) -> String {
         summary.unknowns,
         summary.wall_s,
     )];
-    for pair in &summary.pairs {
+    // Contact of everything has pairs of all that may touch.
+    let touches = |pair: &&PairSummary| pair.pressure_integral > 0.0 || pair.dissipated != 0.0;
+    let (touching, apart): (Vec<_>, Vec<_>) = summary.pairs.iter().partition(touches);
+    for pair in touching {
         let [x, y, z] = pair.resultant_a;
         // Forces of self-contact, and around a press fit, cancel.
         let resultant = x.hypot(y).hypot(z);
@@ -250,6 +257,13 @@ pub fn told(summary: &Summary) -> String {
             "pair `{}`: {force}, mismatch {:.1e}; stick {}, slip {}, open {}; dissipated {:.6e}",
             pair.name, pair.mismatch, pair.stick, pair.slip, pair.open, pair.dissipated
         ));
+    }
+    if !apart.is_empty() {
+        let names: Vec<String> = apart
+            .iter()
+            .map(|pair| format!("`{}`", pair.name))
+            .collect();
+        lines.push(format!("without contact: {}", names.join(", ")));
     }
     lines.join("\n") + "\n"
 }

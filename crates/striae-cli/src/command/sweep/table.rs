@@ -63,14 +63,22 @@ impl Table {
         all.map(line).collect()
     }
 
-    /// The numbers that vary, the endings and the forces of pairs, for a terminal.
+    /// The numbers that vary, the endings and the forces of pairs that have one, for a terminal.
     pub(super) fn text(&self) -> String {
         let is_force = |name: &str| {
             let force = name.contains("resultant_a");
             force && SHOWN.iter().any(|ending| name.ends_with(ending))
         };
+        // Of contact of everything most pairs never touch.
+        let is_felt = |at: usize| {
+            let pair = self.columns[at].rsplit_once('.').map(|(pair, _)| pair);
+            let component = |name: &String| name.rsplit_once('.').map(|(pair, _)| pair) == pair;
+            let components = (0..self.columns.len()).filter(|&at| component(&self.columns[at]));
+            let mut cells = components.flat_map(|at| self.rows.iter().map(move |row| &row[at]));
+            cells.any(|cell| cell.parse::<f64>().is_ok_and(|value| value != 0.0))
+        };
         let shown: Vec<usize> = (0..self.columns.len())
-            .filter(|&at| at < self.leading || is_force(&self.columns[at]))
+            .filter(|&at| at < self.leading || is_force(&self.columns[at]) && is_felt(at))
             .collect();
         let short = |at: usize, text: &str| match text.parse::<f64>() {
             Ok(value) if at >= self.leading => format!("{value:.5e}"),
