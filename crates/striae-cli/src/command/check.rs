@@ -198,7 +198,7 @@ mod tests {
 
     #[test]
     fn the_summary_counts_what_the_deck_describes() {
-        let text = include_str!("template.toml");
+        let text = include_str!("new/blocks.toml");
         let deck = deck::parse(text, "deck.toml", Path::new("")).unwrap();
         let said = summary(&deck, &Advice::of(&deck.model));
         assert!(

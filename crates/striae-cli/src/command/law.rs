@@ -363,7 +363,7 @@ mod tests {
     fn every_friction_of_a_deck_is_shown() {
         let scratch = tempfile::tempdir().unwrap();
         let deck = scratch.path().join("deck.toml");
-        std::fs::write(&deck, include_str!("template.toml")).unwrap();
+        std::fs::write(&deck, include_str!("new/blocks.toml")).unwrap();
         let text = said(&[&deck.to_string_lossy()], &scratch.path().join("figures")).unwrap();
         assert!(
             text.contains("pair `lower-upper`: coulomb, mu = 0.3"),

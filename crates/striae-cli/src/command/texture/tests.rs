@@ -167,6 +167,6 @@ fn painting_faults_are_told_and_nothing_is_written() {
 #[test]
 fn a_deck_without_textures_says_so() {
     let scratch = tempfile::tempdir().unwrap();
-    let text = said(include_str!("../template.toml"), scratch.path()).unwrap();
+    let text = said(include_str!("../new/blocks.toml"), scratch.path()).unwrap();
     assert_eq!(text, "no side of a pair has a texture\n");
 }
