@@ -4,10 +4,10 @@ use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use striae::{
     law::{
-        declared::Form,
+        declared,
         fit::{Reading, Sought, Standing, fit},
     },
-    measurements,
+    measurements::{self, AngleFrom, Form, NamedColumn},
 };
 
 use crate::{
@@ -64,7 +64,7 @@ pub fn fit_friction(
     for (name, word) in &words {
         let parameters = sought.law().parameters.iter();
         let mut known = parameters.filter_map(|parameter| match parameter.form {
-            Form::Word(words) if parameter.name == name => Some(words),
+            declared::Form::Word(words) if parameter.name == name => Some(words),
             _ => None,
         });
         let Some(known) = known.next() else {
@@ -107,10 +107,29 @@ pub fn fit_friction(
 
 /// Angles of slip and between the textures (radians), friction against and, where it was
 /// measured, across slip, spreads, and names of the specimens, where the file has them, in the
-/// text of a file of measurements.
+/// text of a file of measurements; columns as quantity and name.
 #[pyfunction]
-pub fn measurements_of<'py>(py: Python<'py>, text: &str, file: &str) -> PyResult<Columns<'py>> {
-    let measured = measurements::read(text, file, &Default::default()).map_err(|faults| {
+pub fn measurements_of<'py>(
+    py: Python<'py>,
+    text: &str,
+    file: &str,
+    columns: Vec<(String, String)>,
+    along: bool,
+    skipped: usize,
+) -> PyResult<Columns<'py>> {
+    let named = columns.iter().map(|(quantity, column)| {
+        let named = NamedColumn::new(quantity, column);
+        named.map_err(|message| refused("columns", message))
+    });
+    let form = Form {
+        angle_from: match along {
+            true => AngleFrom::Along,
+            false => AngleFrom::Across,
+        },
+        skipped,
+        columns: named.collect::<PyResult<_>>()?,
+    };
+    let measured = measurements::read(text, file, &form).map_err(|faults| {
         let told = faults.faults.into_iter().map(|fault| {
             let at = fault
                 .place

@@ -77,11 +77,20 @@ impl FromStr for NamedColumn {
                 "expected QUANTITY=COLUMN, such as `normal=Fz`, found `{text}`"
             ));
         };
-        let quantity = quantity.trim();
+        Self::new(quantity.trim(), column.trim())
+    }
+}
+
+impl NamedColumn {
+    /// Returns the column of a quantity, by its name or its number from 1.
+    ///
+    /// # Errors
+    /// When the quantity is not known.
+    pub fn new(quantity: &str, column: &str) -> Result<Self, String> {
         match COLUMNS.into_iter().find(|known| *known == quantity) {
             Some(quantity) => Ok(Self {
                 quantity,
-                column: column.trim().to_owned(),
+                column: column.to_owned(),
             }),
             None => Err(format!(
                 "unknown quantity `{quantity}`; known quantities are {}",

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Union
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Optional, Union
 
 import numpy as np
 
@@ -35,24 +35,40 @@ class Measurements(NamedTuple):
     """Names of the specimens, one a reading; ``None`` where the file has none."""
 
 
-def read_measurements(path: Union[str, os.PathLike[str]]) -> Measurements:
+def read_measurements(
+    path: Union[str, os.PathLike[str]],
+    *,
+    columns: Optional[Mapping[str, Union[str, int]]] = None,
+    angle_from: Literal["across", "along"] = "across",
+    skip_lines: int = 0,
+) -> Measurements:
     """Reads a file of measurements, as ``striae fit`` takes it.
 
-    One reading a line, numbers separated by commas, under a line with the names of columns:
+    One reading a line, fields separated by commas, semicolons or tabs (beside the latter two a
+    comma may be the decimal sign), under a line with the names of columns:
     ``angle`` (degrees), ``friction`` (no unit) or ``tangential`` and ``normal`` (force), and where
     they are known ``direction`` and ``theta`` (degrees), ``spread`` (no unit) and the name of the
     ``specimen``. What follows a
     ``#`` is passed over. All faults are one :class:`ModelError` with lines and columns.
 
     path: the file.
+    columns: quantities that the file names otherwise, with the names or numbers (from 1) of their
+        columns, such as ``{"normal": "Fz [N]"}``.
+    angle_from: direction of slip at the angle 0: across the grooves (against a nap), or along them.
+    skip_lines: lines at the beginning of the file to pass over.
     """
+    along = check.word(angle_from, ("across", "along"), "angle_from") == "along"
+    named = [(quantity, str(column)) for quantity, column in (columns or {}).items()]
+    skipped = check.whole(skip_lines, "skip_lines", 0)
     file = os.fspath(path)
     try:
         with open(file, encoding="utf-8") as opened:
             text = opened.read()
     except (OSError, UnicodeDecodeError) as error:
         raise refuse(file, f"it cannot be read: {error}") from None
-    slip, theta, against, across, spread, names = native.measurements_of(text, file)
+    slip, theta, against, across, spread, names = native.measurements_of(
+        text, file, named, along, skipped
+    )
     forces = against
     if across is not None:
         cosine, sine = np.cos(slip), np.sin(slip)
