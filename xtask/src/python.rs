@@ -142,9 +142,22 @@ fn alone(interpreter: &Interpreter, wheels: &Path) -> Result<(), Fault> {
     // Without the path there is no Rust and no compiler.
     let script = ["-I", "crates/striae-py/alone.py"];
     cargo::run(&programs.join("python"), &script, &[("PATH", "")])?;
+    notebook(&programs)?;
     pip(&programs, &["twine"])?;
     let wheel = newest_wheel(wheels)?.display().to_string();
     run(programs.join("twine"), &["check", "--strict", &wheel])
+}
+
+/// Executes a notebook by its own kernel, as Jupyter does.
+fn notebook(programs: &Path) -> Result<(), Fault> {
+    pip(programs, &["matplotlib", "nbclient", "ipykernel"])?;
+    let notebook = "crates/striae-py/examples/friction_rosette.ipynb";
+    let arguments = ["--kernel_name=python3", notebook];
+    cargo::run(
+        &programs.join("jupyter-execute"),
+        &arguments,
+        &[("PATH", "")],
+    )
 }
 
 /// The wheel that was built last.
