@@ -91,7 +91,7 @@ fn a_pressure_of_the_wrong_sign_is_named() {
         &[[UPPER, held], ["name = \"press\"", &pulled]],
         &[
             "contact can only push body `upper` along +z",
-            "pull it in the same direction, away from the contact of `joint`, with a force of 1.000e1",
+            "pull it in the same direction, away from the contact of `joint`, with a force of 10",
             "a positive pressure presses",
         ],
     );
@@ -206,7 +206,7 @@ fn pieces_that_nothing_holds_are_named() {
             ["name = \"press\"", "name = \"press\"\nincrements = 2"],
         ],
         &[
-            "for the piece of 8 nodes with node 0 at (5.000000, 5.000000, 10.000000) nothing restrains it in step `press`",
+            "for the piece of 8 nodes with node 0 at (5, 5, 10) nothing restrains it in step `press`",
             "4 of its nodes lie on nodes of another piece: merge coincident nodes",
         ],
     );
@@ -318,7 +318,7 @@ fn textures_without_a_direction_name_node_cause_and_remedy() {
     let circles = "{ circumferential = { point = [10, 10, 0], direction = [0, 0, 1] } }";
     let found = with(circles).expect("a fault");
     for words in [
-        ", (10.000000, 10.000000, 10.000000): its axis passes through that node",
+        ", (10, 10, 10): its axis passes through that node",
         "move the axis or the mesh",
     ] {
         assert!(found.contains(words), "{found}");
@@ -347,7 +347,7 @@ fn textures_of_planes_are_judged_where_the_body_is() {
     let found = with(circles).expect("a fault");
     for words in [
         "deck.toml:21:34: pair `joint`: the texture of rigid surface `floor` has no direction at node ",
-        "of body `lower`, (10.000000, 10.000000, 10.000000): its axis passes through that node",
+        "of body `lower`, (10, 10, 10): its axis passes through that node",
     ] {
         assert!(found.contains(words), "{found}");
     }

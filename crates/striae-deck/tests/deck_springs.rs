@@ -149,7 +149,7 @@ fn faults_have_their_place_and_a_remedy() {
         ),
         (
             "b = { fixed = [0, 0, 1] }\nstiffness = 1",
-            "both of its ends are at (0.0",
+            "both of its ends are at (0, 0, 1)",
         ),
         (
             "b = { rigid = \"whell\" }\nstiffness = 1",

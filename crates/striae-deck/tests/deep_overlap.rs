@@ -89,7 +89,7 @@ fn what_is_deeper_than_half_the_body_is_refused() {
     for (depth, height) in [(0.6, 1.0), (0.3, 0.5)] {
         let faults = parse(&on_body(depth, height, ""), "deck.toml", Path::new(""));
         let said = faults.unwrap_err().to_string();
-        let size = "the local facet size 2.500e-1";
+        let size = "the local facet size 0.25";
         for part in [
             "deck.toml:",
             "inside `",

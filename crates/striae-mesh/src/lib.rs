@@ -16,6 +16,7 @@
 
 mod cell;
 mod error;
+mod figures;
 pub mod generate;
 mod id;
 mod locate;
@@ -31,6 +32,7 @@ mod transform;
 
 pub use cell::{COMPOSITE_PARTS, CellBlock, CellKind, CellShape, MAX_CORNERS, MAX_POINTS};
 pub use error::MeshError;
+pub use figures::{place, significant};
 pub use id::{ElementId, Face, FacetId, NodeId};
 pub use locate::Located;
 pub use mesh::Mesh;

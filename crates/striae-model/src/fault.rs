@@ -4,7 +4,7 @@
 
 use std::fmt;
 
-use striae_mesh::{ElementId, NodeId};
+use striae_mesh::{ElementId, NodeId, place, significant};
 
 use crate::path::Path;
 
@@ -513,8 +513,8 @@ pub enum FaultKind {
     },
     /// A length that cannot be computed with.
     #[error(
-        "{what} has a length or coordinate of {length:.1e}, outside of the range from 1e-50 to 1e50; repair the mesh, or choose another unit of length"
-    )]
+        "{what} has a length or coordinate of {length}, outside of the range from 1e-50 to 1e50; repair the mesh, or choose another unit of length",
+        length = significant(*length, 2))]
     Extent {
         /// The body or rigid surface, as the subject of a sentence.
         what: String,
@@ -523,7 +523,7 @@ pub enum FaultKind {
     },
     /// A facet of a rigid surface without area.
     #[error(
-        "facet {facet} of rigid surface `{rigid}`, with a corner at ({:.6}, {:.6}, {:.6}), has no area; remove it, or correct its corners", at.x, at.y, at.z
+        "facet {facet} of rigid surface `{rigid}`, with a corner at {}, has no area; remove it, or correct its corners", place(&at)
     )]
     FlatFacet {
         /// The rigid surface.
@@ -535,8 +535,8 @@ pub enum FaultKind {
     },
     /// Neighbouring facets of a rigid surface that look to opposite sides.
     #[error(
-        "facets {first} and {second} of rigid surface `{rigid}` have opposite orientations at their edge from ({:.6}, {:.6}, {:.6}) to ({:.6}, {:.6}, {:.6}); reverse one of them, so that the corners of all are counter-clockwise as seen from the body",
-        ends[0].x, ends[0].y, ends[0].z, ends[1].x, ends[1].y, ends[1].z
+        "facets {first} and {second} of rigid surface `{rigid}` have opposite orientations at their edge from {} to {}; reverse one of them, so that the corners of all are counter-clockwise as seen from the body",
+        place(&ends[0]), place(&ends[1])
     )]
     TurnedFacet {
         /// The rigid surface.
@@ -674,7 +674,7 @@ pub enum FaultKind {
     },
     /// A piece of a body that is not joined to the rest and can move without resistance.
     #[error(
-        "body `{body}` is made of {pieces} pieces that share no nodes, and for the piece of {nodes} nodes with {node} at ({:.6}, {:.6}, {:.6}) {} in step `{step}`{}", at.x, at.y, at.z, leaves(.motions), joining(*coincident)
+        "body `{body}` is made of {pieces} pieces that share no nodes, and for the piece of {nodes} nodes with {node} at {} {} in step `{step}`{}", place(&at), leaves(.motions), joining(*coincident)
     )]
     LoosePiece {
         /// The body.
@@ -770,7 +770,8 @@ fn unopposed(load: &f64, pairs: &[String]) -> String {
     let pairs = quoted(pairs);
     match *load > 0.0 {
         true => format!(
-            "its loads pull it in the same direction, away from the contact of {pairs}, with a force of {load:.3e}; reverse the loads (a positive pressure presses on a surface), or prescribe displacements that restrain it"
+            "its loads pull it in the same direction, away from the contact of {pairs}, with a force of {load}; reverse the loads (a positive pressure presses on a surface), or prescribe displacements that restrain it",
+            load = significant(*load, 4)
         ),
         false => format!(
             "nothing resists this motion: it would fly off, and the contact of {pairs} would have no force; prescribe displacements that restrain it, or load it towards the contact"

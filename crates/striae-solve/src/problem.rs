@@ -24,7 +24,7 @@ use striae_contact::{
     pair::{ContactPair, Geometry, PairedSurface},
 };
 use striae_element::{ElementFault, Elements};
-use striae_mesh::{Face, NodeId, Vec3};
+use striae_mesh::{Face, NodeId, Vec3, place};
 use striae_surface::{
     texture::{Conditioning, TextureError},
     topology::Surface,
@@ -145,8 +145,8 @@ pub enum ProblemError {
     },
     /// A field has no tangential direction at a node.
     #[error(
-        "pair `{pair}`: the texture of {surface} has no direction at {node}, ({:.6}, {:.6}, {:.6}): {}",
-        at.x, at.y, at.z, cause.words()
+        "pair `{pair}`: the texture of {surface} has no direction at {node}, {}: {}",
+        place(&at), cause.words()
     )]
     Undirected {
         /// Name of the pair.

@@ -8,7 +8,7 @@ use std::{collections::BTreeSet, io::Write};
 use striae::advice::{Advice, Remark, Topic};
 use striae_deck::{Deck, Location, Part};
 use striae_law::bulk::{LameConstants, Material};
-use striae_mesh::NodeId;
+use striae_mesh::{NodeId, significant};
 use striae_solve::{
     model::{
         Body, BodySection, ContactSurface, Formulation, Model, Pair, RigidShape, RigidSurface,
@@ -128,7 +128,8 @@ fn made_of(formulation: Formulation, material: &Material) -> String {
         Formulation::MeanDilatation => " with mean dilatation",
         Formulation::AssumedStrain => " with assumed strain",
     };
-    format!("{formulation}; {law}, lambda = {lambda:.6e}, G = {shear:.6e}")
+    let [lambda, shear] = [lambda, shear].map(|modulus| significant(modulus, 7));
+    format!("{formulation}; {law}, lambda = {lambda}, G = {shear}")
 }
 
 fn rigid_line(rigid: &RigidSurface) -> String {
@@ -169,9 +170,11 @@ fn step_line(model: &Model, index: usize) -> String {
     let step = &model.steps[index];
     let first = first_increment(model, index);
     let increments = step.increments;
+    let shares = [increments.smallest, increments.largest, first];
+    let [smallest, largest, first] = shares.map(|share| significant(share, 4));
     format!(
-        "  step `{}`: duration {}, increments from {:.3e} to {:.3e} of it, first {:.3e}",
-        step.name, step.duration, increments.smallest, increments.largest, first
+        "  step `{}`: duration {}, increments from {smallest} to {largest} of it, first {first}",
+        step.name, step.duration
     )
 }
 

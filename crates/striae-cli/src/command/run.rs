@@ -6,6 +6,7 @@ use std::{
 };
 
 use striae::{Finished, Simulation, case_name, sensitivity::of_deck};
+use striae_mesh::significant;
 use striae_output::{
     Existing,
     checkpoint::FILE,
@@ -242,6 +243,7 @@ pub fn told(summary: &Summary) -> String {
         summary.unknowns,
         summary.wall_s,
     )];
+    let of = |value: f64| significant(value, 7);
     // Contact of everything has pairs of all that may touch.
     let touches = |pair: &&PairSummary| pair.pressure_integral > 0.0 || pair.dissipated != 0.0;
     let (touching, apart): (Vec<_>, Vec<_>) = summary.pairs.iter().partition(touches);
@@ -250,12 +252,17 @@ pub fn told(summary: &Summary) -> String {
         // Forces of self-contact, and around a press fit, cancel.
         let resultant = x.hypot(y).hypot(z);
         let force = match resultant < 1e-6 * pair.pressure_integral {
-            true => format!("pressed together by {:.6e}", pair.pressure_integral),
-            false => format!("force on a ({x:.6e}, {y:.6e}, {z:.6e})"),
+            true => format!("pressed together by {}", of(pair.pressure_integral)),
+            false => format!("force on a ({}, {}, {})", of(x), of(y), of(z)),
         };
         lines.push(format!(
-            "pair `{}`: {force}, mismatch {:.1e}; stick {}, slip {}, open {}; dissipated {:.6e}",
-            pair.name, pair.mismatch, pair.stick, pair.slip, pair.open, pair.dissipated
+            "pair `{}`: {force}, mismatch {:.1e}; stick {}, slip {}, open {}; dissipated {}",
+            pair.name,
+            pair.mismatch,
+            pair.stick,
+            pair.slip,
+            pair.open,
+            of(pair.dissipated)
         ));
     }
     if !apart.is_empty() {

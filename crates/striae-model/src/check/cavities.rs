@@ -1,6 +1,6 @@
 //! Cavities that enclose no volume, and contents that they cannot have.
 
-use striae_mesh::Vec3;
+use striae_mesh::{Vec3, place, significant};
 use striae_solve::{
     cavity::{RimFault, enclosed},
     model::{CavityContent, CavityFilling, Curve, Model, Procedure},
@@ -47,17 +47,12 @@ pub fn faults(model: &Model) -> Vec<Fault> {
 
 /// Reason why a surface encloses no volume.
 fn unsound(model: &Model, index: usize) -> Option<String> {
-    let edge = |[a, b]: [Vec3; 2]| {
-        format!(
-            "from ({:.6}, {:.6}, {:.6}) to ({:.6}, {:.6}, {:.6})",
-            a.x, a.y, a.z, b.x, b.y, b.z
-        )
-    };
+    let edge = |[a, b]: [Vec3; 2]| format!("from {} to {}", place(&a), place(&b));
     match enclosed(model, index) {
         Ok(volume) if volume > 0.0 => None,
         Ok(volume) => Some(format!(
-            "its faces enclose a volume of {volume:.3e}; name faces of the inner side of the bodies, which look into the cavity"
-        )),
+            "its faces enclose a volume of {volume}; name faces of the inner side of the bodies, which look into the cavity",
+        volume = significant(volume, 4))),
         Err(RimFault::Open(ends)) => Some(format!(
             "its surface ends at the edge {}; add the faces that close it, or, at a plane of symmetry, hold both nodes at zero along one normal of the edge in all steps",
             edge(ends)

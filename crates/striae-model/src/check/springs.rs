@@ -1,6 +1,6 @@
 //! Springs that have no force, no direction or too many ends.
 
-use striae_mesh::Vec3;
+use striae_mesh::{Vec3, place};
 use striae_solve::model::{Spring, SpringEnd, SpringLine, SpringRest};
 
 use super::{Draft, List, numbers};
@@ -52,10 +52,10 @@ fn cause(draft: &Draft<'_>, spring: &Spring) -> Option<(&'static str, String)> {
         },
     };
     let mut places = places(draft, &spring.a)?.into_iter();
-    let place = places.find(|place| *place == from)?;
+    let common = places.find(|other| *other == from)?;
     let cause = format!(
-        "both of its ends are at ({:.6}, {:.6}, {:.6}), so it has no direction; give it a `direction`, or ends that are apart",
-        place.x, place.y, place.z
+        "both of its ends are at {}, so it has no direction; give it a `direction`, or ends that are apart",
+        place(&common)
     );
     Some(("b", cause))
 }

@@ -1,15 +1,15 @@
 //! Faults that only meshes in their places show.
 
-use striae_mesh::{ElementId, NodeId, Vec3};
+use striae_mesh::{ElementId, NodeId, Vec3, place, significant};
 
 /// Faults of meshes that cannot be simulated as they lie.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum InitialFault {
     /// Bodies overlap.
     #[error(
-        "pair `{pair}`: `{body}` is {depth:.3e} inside `{other}` at ({:.6}, {:.6}, {:.6}), next to its {node}; that is {:.0} % of the local facet size. {}",
-        at.x, at.y, at.z, 100.0 * share, closing.remedy()
-    )]
+        "pair `{pair}`: `{body}` is {depth} inside `{other}` at {}, next to its {node}; that is {:.0} % of the local facet size. {}",
+        place(&at), 100.0 * share, closing.remedy(),
+        depth = significant(*depth, 4))]
     Overlap {
         /// Name of the pair.
         pair: String,
@@ -30,9 +30,9 @@ pub enum InitialFault {
     },
     /// Bodies overlap by so much that their other side is nearer.
     #[error(
-        "pair `{pair}`: `{body}` is {depth:.3e} inside `{other}` at ({:.6}, {:.6}, {:.6}), next to its {node}, which is {:.0} % of the thickness of `{other}` there, {thickness:.3e}, and {:.0} % of the local facet size {size:.3e}. Overlaps can be resolved up to half the thickness; beyond that, the other side of `{other}` is nearer. Separate the bodies in the mesh, or bring them together in a step",
-        at.x, at.y, at.z, 100.0 * depth / thickness, 100.0 * depth / size
-    )]
+        "pair `{pair}`: `{body}` is {depth} inside `{other}` at {}, next to its {node}, which is {:.0} % of the thickness of `{other}` there, {thickness}, and {:.0} % of the local facet size {size}. Overlaps can be resolved up to half the thickness; beyond that, the other side of `{other}` is nearer. Separate the bodies in the mesh, or bring them together in a step",
+        place(&at), 100.0 * depth / thickness, 100.0 * depth / size,
+        depth = significant(*depth, 4), thickness = significant(*thickness, 4), size = significant(*size, 4))]
     Deep {
         /// Name of the pair.
         pair: String,
@@ -53,8 +53,8 @@ pub enum InitialFault {
     },
     /// No faces are near enough to be taken as touching.
     #[error(
-        "pair `{pair}`: `interference` is measured from touching faces, but the two sides do not face each other within the search distance of the pair (by default half a facet); the smallest gap is {gap:.3e}. Set `search_distance` above the gap between the fitting faces, or close the gap in the mesh"
-    )]
+        "pair `{pair}`: `interference` is measured from touching faces, but the two sides do not face each other within the search distance of the pair (by default half a facet); the smallest gap is {gap}. Set `search_distance` above the gap between the fitting faces, or close the gap in the mesh",
+        gap = significant(*gap, 4))]
     Unseated {
         /// Name of the pair.
         pair: String,
@@ -75,8 +75,8 @@ pub enum InitialFault {
     },
     /// The sides look away from each other, as where facets are turned inside out.
     #[error(
-        "pair `{pair}`: the surface of `{body}` faces away from that of `{other}`, so they cannot touch: at {node} of `{body}`, ({:.6}, {:.6}, {:.6}), both normals have the same direction. {}",
-        at.x, at.y, at.z, turning(rigid)
+        "pair `{pair}`: the surface of `{body}` faces away from that of `{other}`, so they cannot touch: at {node} of `{body}`, {}, both normals have the same direction. {}",
+        place(&at), turning(rigid)
     )]
     Away {
         /// Name of the pair.
@@ -94,8 +94,8 @@ pub enum InitialFault {
     },
     /// Facets of one side are far smaller than those of the other.
     #[error(
-        "pair `{pair}`: {count} facets of `{body}` lie opposite one facet of `{other}`, at ({:.6}, {:.6}, {:.6}), too many to compute their contact. Refine `{other}` there, coarsen `{body}`, or make `{other}` a rigid surface if it hardly deforms",
-        at.x, at.y, at.z
+        "pair `{pair}`: {count} facets of `{body}` lie opposite one facet of `{other}`, at {}, too many to compute their contact. Refine `{other}` there, coarsen `{body}`, or make `{other}` a rigid surface if it hardly deforms",
+        place(&at)
     )]
     Crowded {
         /// Name of the pair.

@@ -1,6 +1,6 @@
 //! Faults of ties, with their messages.
 
-use striae_mesh::{ElementId, Vec3};
+use striae_mesh::{ElementId, Vec3, place, significant};
 
 /// Reason why a tie cannot hold.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -25,8 +25,8 @@ pub enum TieFault {
     },
     /// The sides have nothing in common.
     #[error(
-        "tie `{tie}`: the surfaces of `{a}` and `{b}` do not meet; the nearest of their nodes are {distance:.3e} apart. Name facets that face each other, move the bodies together, or set `within` to a larger distance"
-    )]
+        "tie `{tie}`: the surfaces of `{a}` and `{b}` do not meet; the nearest of their nodes are {distance} apart. Name facets that face each other, move the bodies together, or set `within` to a larger distance",
+        distance = significant(*distance, 4))]
     Nothing {
         /// The tie.
         tie: String,
@@ -39,9 +39,9 @@ pub enum TieFault {
     },
     /// Facets that face each other from too far away.
     #[error(
-        "tie `{tie}`: at ({:.6}, {:.6}, {:.6}) `{a}` and `{b}` are {gap:.3e} apart, {:.0} % of the facet size. Repair the meshes, leave these facets out, or set `within` to the largest distance to be tied",
-        at.x, at.y, at.z, 100.0 * share
-    )]
+        "tie `{tie}`: at {} `{a}` and `{b}` are {gap} apart, {:.0} % of the facet size. Repair the meshes, leave these facets out, or set `within` to the largest distance to be tied",
+        place(&at), 100.0 * share,
+        gap = significant(*gap, 4))]
     Apart {
         /// The tie.
         tie: String,
@@ -90,8 +90,8 @@ pub enum TieFault {
     },
     /// Moving nodes would turn an element inside out.
     #[error(
-        "tie `{tie}`: moving the nodes of `{body}` by up to {moved:.3e} onto the other surface would turn {element} inside out; refine the surfaces where they are curved, or repair the mesh"
-    )]
+        "tie `{tie}`: moving the nodes of `{body}` by up to {moved} onto the other surface would turn {element} inside out; refine the surfaces where they are curved, or repair the mesh",
+        moved = significant(*moved, 4))]
     Inverted {
         /// The tie.
         tie: String,

@@ -15,7 +15,7 @@ use std::collections::BTreeSet;
 
 use nalgebra::{Matrix3, SymmetricEigen};
 use striae_contact::initial::Fit;
-use striae_mesh::{CellKind, Face, Mesh, NodeId, Vec3};
+use striae_mesh::{CellKind, Face, Mesh, NodeId, Vec3, significant};
 use striae_model::{
     Body, BodyId, ContactSurface, Formulation, LoadKind, Model, RigidShape, Step, Value,
 };
@@ -48,10 +48,10 @@ pub(super) fn look(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) {
         }
         let name = &body.name;
         let text = format!(
-            "body `{name}` is {:.3e} thick and {:.3e} long; in bending its elements, {:.3e} long, are about {:.1} times too stiff",
-            frame.lengths[0],
-            frame.lengths[2],
-            frame.element(&body.mesh),
+            "body `{name}` is {} thick and {} long; in bending its elements, {} long, are about {:.1} times too stiff",
+            significant(frame.lengths[0], 4),
+            significant(frame.lengths[2], 4),
+            significant(frame.element(&body.mesh), 4),
             1.0 + share
         );
         match share > LIMITS[1] {

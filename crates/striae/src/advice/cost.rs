@@ -14,6 +14,7 @@
 //! operations a second.
 
 use striae_contact::{initial::Fit, opposite::Opposite};
+use striae_mesh::significant;
 use striae_model::{Backend, ContactSurface, Model, PairId};
 use striae_output::available_bytes;
 use striae_solve::{
@@ -131,9 +132,9 @@ pub(super) fn look(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) {
             Topic::Cost,
             "",
             format!(
-                "about {unknowns} unknowns; estimated by formula, a solution takes about {:.1} GB and {operations:.1e} operations",
-                bytes / 1e9
-            ),
+                "about {unknowns} unknowns; estimated by formula, a solution takes about {:.1} GB and {operations} operations",
+                bytes / 1e9,
+        operations = significant(operations, 2)),
         );
         time(&cost, advice);
         memory(&cost, advice);
@@ -171,11 +172,9 @@ fn crowded(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) -> bool {
         } = opposite;
         let [fine, coarse] = [side, side.opposite()].map(|side| other_name(model, id, side));
         let text = format!(
-            "pair `{}`: {count} facets of `{fine}` lie opposite one facet of `{coarse}`, at ({:.6}, {:.6}, {:.6}); contact of facets of such different sizes is slow and takes up to {:.1} GB; refine `{coarse}` there, or make it a rigid surface if it hardly deforms",
+            "pair `{}`: {count} facets of `{fine}` lie opposite one facet of `{coarse}`, at {}; contact of facets of such different sizes is slow and takes up to {:.1} GB; refine `{coarse}` there, or make it a rigid surface if it hardly deforms",
             pair.name,
-            at.x,
-            at.y,
-            at.z,
+            striae_mesh::place(&at),
             total / 1e9
         );
         advice.warn(Topic::Cost, &pair.name, text);
@@ -192,8 +191,8 @@ fn counted(model: &Model, estimate: &Estimate, advice: &mut Advice) {
     let megabytes = |analysis: &Analysis| {
         let megabytes = analysis.cost.peak_bytes as f64 / 1e6;
         format!(
-            "{megabytes:.1} MB and {:.1e} operations",
-            analysis.cost.flops
+            "{megabytes:.1} MB and {} operations",
+            significant(analysis.cost.flops, 2)
         )
     };
     let others = others.iter();

@@ -6,7 +6,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use striae_contact::interference::{fibres, lengths};
-use striae_mesh::{Face, NodeId, Vec3};
+use striae_mesh::{Face, NodeId, Vec3, place};
 use striae_model::{Body, BodyId, ContactSurface, Freedom, Model, RigidShape, Step};
 use striae_surface::topology::Surface;
 
@@ -150,8 +150,8 @@ fn thickness(model: &Model, body: BodyId, thin: Thin, advice: &mut Advice) {
     } = thin;
     let most = 0.5 * thickness;
     let text = format!(
-        "body `{name}` is {thickness:.3} thick where facets are {size:.3} wide, at ({:.6}, {:.6}, {:.6}): increments must move its layers by less than {most:.3}",
-        at.x, at.y, at.z
+        "body `{name}` is {thickness:.3} thick where facets are {size:.3} wide, at {}: increments must move its layers by less than {most:.3}",
+        place(&at)
     );
     let moved = model.steps.iter().map(|step| (step, moved(model, step)));
     let farthest = moved.max_by(|(_, one), (_, other)| one.total_cmp(other));

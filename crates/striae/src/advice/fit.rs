@@ -1,7 +1,7 @@
 //! Gaps and overlaps of pairs, pairs that never meet, surfaces that look away.
 
 use striae_contact::{initial::Fit, interference::Spot, side::Side};
-use striae_mesh::Vec3;
+use striae_mesh::{Vec3, place, significant};
 use striae_model::{ContactSurface, Model, Pair, PairId, RigidShape};
 use striae_solve::{
     initial::{ROUND_OFF, other_name, surface_node, turned},
@@ -46,22 +46,20 @@ fn words(model: &Model, pair: PairId, fit: &Fit) -> String {
             Spot::Centre(facet) => Some(format!("the centre of {facet}")),
         };
         format!(
-            "{} of `{}` ({:.6}, {:.6}, {:.6})",
+            "{} of `{}` {}",
             spot.unwrap_or_default(),
             other_name(model, pair, side.opposite()),
-            x.x,
-            x.y,
-            x.z
+            place(&x)
         )
     };
     let gap = match &fit.gap {
         Some(gap) => {
             let place = at(gap.side, gap.spot, &gap.point);
-            format!("smallest gap {:.3e} at {place}", gap.gap)
+            format!("smallest gap {} at {place}", significant(gap.gap, 4))
         }
         None => format!(
-            "the sides do not face each other; nearest distance {:.3e}",
-            fit.distance
+            "the sides do not face each other; nearest distance {}",
+            significant(fit.distance, 4)
         ),
     };
     let overlap = fit
@@ -72,8 +70,8 @@ fn words(model: &Model, pair: PairId, fit: &Fit) -> String {
         let place = at(overlap.side, overlap.spot, &overlap.point);
         let share = 100.0 * overlap.share();
         format!(
-            "largest overlap {:.3e} ({share:.1} % of the facet size) at {place}",
-            overlap.depth
+            "largest overlap {} ({share:.1} % of the facet size) at {place}",
+            significant(overlap.depth, 4)
         )
     });
     format!("{gap}; {overlap}")

@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use striae_law::friction::{
     Coefficient, Friction, Healing, HealingCourse, Law, RateAndState, RequiredTextures,
 };
+use striae_mesh::significant;
 use striae_model::{Model, Pair};
 
 use super::{Advice, Topic};
@@ -121,8 +122,8 @@ fn of_dependences(name: &str, when: &str, friction: &Friction, advice: &mut Advi
         let law = factor.law().name();
         let course = match factor.steepest_fall() > 0.0 {
             true => format!(
-                "falls with the slip of an increment by up to {:.4e} times the pressure per length; bodies that resist with less, per area, may jump from stick to slip within an increment",
-                coefficient.at_rest() * factor.steepest_fall()
+                "falls with the slip of an increment by up to {} times the pressure per length; bodies that resist with less, per area, may jump from stick to slip within an increment",
+                significant(coefficient.at_rest() * factor.steepest_fall(), 5)
             ),
             false => "does not fall with the slip of an increment".to_owned(),
         };
@@ -158,13 +159,14 @@ fn of_state(name: &str, when: &str, law: &RateAndState) -> String {
     } = law;
     let course = match b > a {
         true => format!(
-            "falls in faster steady slip, which is unstable on springs below {:.4e} times the pressure, (b - a)/D, per area: increments may then have several solutions, and steps without inertia jump. Facets must be smaller than E D/(b p) for slip to grow from a part of the surface",
-            (b - a) / slip_distance
+            "falls in faster steady slip, which is unstable on springs below {} times the pressure, (b - a)/D, per area: increments may then have several solutions, and steps without inertia jump. Facets must be smaller than E D/(b p) for slip to grow from a part of the surface",
+            significant((b - a) / slip_distance, 5)
         ),
         false => "does not fall in faster steady slip, which is stable".to_owned(),
     };
     format!(
-        "pair `{name}`: friction{when} depends on rate and state and {course}. Slip in an increment should be some tenths of D = {slip_distance:.4e}, and steps must have their true durations"
+        "pair `{name}`: friction{when} depends on rate and state and {course}. Slip in an increment should be some tenths of D = {slip_distance}, and steps must have their true durations",
+        slip_distance = significant(*slip_distance, 5)
     )
 }
 
@@ -174,18 +176,18 @@ fn of_healing(name: &str, when: &str, coefficient: &Coefficient, law: &Healing) 
         HealingCourse::Exponential {
             kinetic_over_static,
         } => format!(
-            "falls with slip to {kinetic_over_static:.4} of that stated and heals at rest in the time {:.4e}",
-            law.healing_time
+            "falls with slip to {kinetic_over_static:.4} of that stated and heals at rest in the time {}",
+            significant(law.healing_time, 5)
         ),
         HealingCourse::Logarithmic { factor } => format!(
-            "rises at rest by {factor:.4} of that stated for each factor of e of the time, from {:.4e} on, and falls with slip",
-            law.healing_time
+            "rises at rest by {factor:.4} of that stated for each factor of e of the time, from {} on, and falls with slip",
+            significant(law.healing_time, 5)
         ),
     };
     format!(
-        "pair `{name}`: friction{when} {course}. Bodies that resist with less than {:.4e} times the pressure, per area, may jump from stick to slip within an increment; slip in an increment should be some tenths of D = {:.4e}, and steps must have their true durations",
-        coefficient.at_rest() * law.largest_weakening(),
-        law.slip_distance
+        "pair `{name}`: friction{when} {course}. Bodies that resist with less than {} times the pressure, per area, may jump from stick to slip within an increment; slip in an increment should be some tenths of D = {}, and steps must have their true durations",
+        significant(coefficient.at_rest() * law.largest_weakening(), 5),
+        significant(law.slip_distance, 5)
     )
 }
 

@@ -2,7 +2,7 @@
 //! share no nodes, and bodies that touch although no pair or tie joins them.
 
 use striae_law::friction::Friction;
-use striae_mesh::Vec3;
+use striae_mesh::{Vec3, place};
 use striae_model::{Body, BodyId, ContactSurface, Enforcement, Initial, Model, Pair};
 use striae_solve::initial::fits;
 
@@ -31,7 +31,7 @@ fn pieces(body: &Body, advice: &mut Advice) {
     if pieces.len() > 1 {
         let shown = pieces.iter().take(4).map(|piece| {
             let x = body.mesh.positions[piece[0].index()];
-            let place = format!("({:.6}, {:.6}, {:.6})", x.x, x.y, x.z);
+            let place = place(&x);
             format!("{} nodes with {} at {place}", piece.len(), piece[0])
         });
         let shown = shown.collect::<Vec<_>>().join("; ");
@@ -46,8 +46,8 @@ fn pieces(body: &Body, advice: &mut Advice) {
             Topic::Shape,
             name,
             format!(
-                "body `{name}`: pairs of coincident nodes that are not joined: {}, the first {first} and {second} at ({:.6}, {:.6}, {:.6}); elements separate there without resistance. Merge coincident nodes in the mesh generator, unless a slit is intended",
-                coincident.len(), x.x, x.y, x.z
+                "body `{name}`: pairs of coincident nodes that are not joined: {}, the first {first} and {second} at {}; elements separate there without resistance. Merge coincident nodes in the mesh generator, unless a slit is intended",
+                coincident.len(), place(&x)
             ),
         );
     }

@@ -8,7 +8,7 @@
 //! ```
 
 use striae_contact::initial::Fit;
-use striae_mesh::{NodeId, Vec3};
+use striae_mesh::{NodeId, Vec3, significant};
 use striae_model::{BodyId, ContactSurface, Freedom, Model, Pair, Procedure, RigidId, Step};
 
 use super::{Advice, Topic, fit::area_vectors};
@@ -170,8 +170,12 @@ fn pressed(pair: &Pair, fit: &Fit, ways: &[Way], advice: &mut Advice) {
         return;
     }
     let text = format!(
-        "pair `{}`: step `{}` moves `{a}` and `{b}` by {:.3e} towards each other, from a gap of {gap:.3e}, and the material pressed between them is {:.3e} high",
-        pair.name, way.step.name, way.towards, way.height
+        "pair `{}`: step `{}` moves `{a}` and `{b}` by {} towards each other, from a gap of {gap}, and the material pressed between them is {} high",
+        pair.name,
+        way.step.name,
+        significant(way.towards, 4),
+        significant(way.height, 4),
+        gap = significant(gap, 4)
     );
     if share(way) >= PRESSED[1] {
         let text = format!(
@@ -193,8 +197,10 @@ fn apart(model: &Model, pair: &Pair, ways: &[Way], advice: &mut Advice) {
     if let Some(way) = leaves.filter(|_| never && !meant && !is_told) {
         let [a, b] = way.names;
         let text = format!(
-            "pair `{}`: step `{}` moves `{a}` and `{b}` apart by {:.3e}, and no step moves them together, so their contact has no force; is the sign of the displacement right?",
-            pair.name, way.step.name, -way.towards
+            "pair `{}`: step `{}` moves `{a}` and `{b}` apart by {}, and no step moves them together, so their contact has no force; is the sign of the displacement right?",
+            pair.name,
+            way.step.name,
+            significant(-way.towards, 4)
         );
         advice.warn(Topic::NeverMeets, &pair.name, text);
     }

@@ -6,7 +6,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use striae_mesh::{Face, Mesh, NodeId, Vec3};
+use striae_mesh::{Face, Mesh, NodeId, Vec3, place};
 use striae_model::{BodyId, ContactSurface, Freedom, Model, RigidShape, Step};
 
 use super::{Advice, Topic, resolution::approach};
@@ -35,8 +35,10 @@ pub(super) fn look(model: &Model, advice: &mut Advice) {
                 let x = mesh.positions[first.index()];
                 let body = &model.bodies[body.0].name;
                 let text = format!(
-                    "pair `{}`: in step `{}` {how}, and the surface of `{body}` continues smoothly beyond the facets of the pair, as at ({:.6}, {:.6}, {:.6}); facets outside it are not in contact: add the neighbours to the facets of the pair",
-                    pair.name, step.name, x.x, x.y, x.z
+                    "pair `{}`: in step `{}` {how}, and the surface of `{body}` continues smoothly beyond the facets of the pair, as at {}; facets outside it are not in contact: add the neighbours to the facets of the pair",
+                    pair.name,
+                    step.name,
+                    place(&x)
                 );
                 advice.warn(Topic::Fit, &pair.name, text);
             }

@@ -3,6 +3,7 @@
 
 pub(super) mod prescribed;
 
+use striae_mesh::significant;
 use striae_model::{Body, BodyId, ContactSurface, Freedom, Model, Procedure, RigidMotion, Step};
 
 use super::{Advice, Topic, parts::Part, shape::extent};
@@ -44,9 +45,11 @@ fn displacements(model: &Model, id: BodyId, body: &Body, advice: &mut Advice) {
     };
     let name = &body.name;
     let text = format!(
-        "body `{name}` is {size:.3e} long, and step `{}` displaces nodes of it by {displacement:.3e}, {:.0} times as much",
+        "body `{name}` is {size} long, and step `{}` displaces nodes of it by {displacement}, {:.0} times as much",
         step.name,
-        displacement / size
+        displacement / size,
+        size = significant(size, 4),
+        displacement = significant(displacement, 4)
     );
     match displacement > LARGE[1] * size {
         true => advice.warn(
@@ -89,13 +92,13 @@ fn waves(body: &Body, step: &Step, advice: &mut Advice) {
                 Topic::Units,
                 &body.name,
                 format!(
-                    "{}: with Young's modulus {:.3e} and density {:.3e} waves travel at {speed:.1e}, and in the {} of step `{}` they cover {way:.1e}, less than an element of {longest:.1e}; are densities, moduli and times in one system of units, such as t/mm^3, MPa and s?",
+                    "{}: with Young's modulus {} and density {} waves travel at {speed}, and in the {} of step `{}` they cover {way}, less than an element of {longest}; are densities, moduli and times in one system of units, such as t/mm^3, MPa and s?",
                     part.name,
-                    part.youngs_modulus(),
-                    part.density,
+                    significant(part.youngs_modulus(), 4),
+                    significant(part.density, 4),
                     step.duration,
-                    step.name
-                ),
+                    step.name,
+        speed = significant(speed, 2), way = significant(way, 2), longest = significant(longest, 2)),
             );
         }
     }

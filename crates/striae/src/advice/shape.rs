@@ -1,6 +1,6 @@
 //! Extent and volume of bodies, the poorest elements, and elements that lock.
 
-use striae_mesh::{CellKind, Mesh, Vec3, quality::SMALL_SCALED_JACOBIAN};
+use striae_mesh::{CellKind, Mesh, Vec3, place, quality::SMALL_SCALED_JACOBIAN, significant};
 use striae_model::{Body, Formulation, Model};
 
 use super::{Advice, Topic, parts::Part};
@@ -31,17 +31,16 @@ fn shape(body: &Body, advice: &mut Advice) {
     let name = &body.name;
     let [low, high] = extent(&body.mesh);
     let quality = body.mesh.quality();
-    let at = |x: &Vec3| format!("({:.6}, {:.6}, {:.6})", x.x, x.y, x.z);
+    let [shortest, longest] = [quality.shortest_edge, quality.longest_edge];
+    let [shortest, longest] = [shortest, longest].map(|edge| significant(edge, 4));
     advice.note(
         Topic::Shape,
         name,
         format!(
-            "body `{name}` lies between {} and {} and has the volume {:.6e}; its edges are {:.3e} to {:.3e} long, the smallest scaled Jacobian {:.3}",
-            at(&low),
-            at(&high),
-            quality.volume,
-            quality.shortest_edge,
-            quality.longest_edge,
+            "body `{name}` lies between {} and {} and has the volume {}; its edges are {shortest} to {longest} long, the smallest scaled Jacobian {:.3}",
+            place(&low),
+            place(&high),
+            significant(quality.volume, 7),
             quality.smallest_scaled_jacobian
         ),
     );

@@ -1,6 +1,6 @@
 //! Rigid surfaces beside the bodies that they touch.
 
-use striae_mesh::Vec3;
+use striae_mesh::{Vec3, significant};
 use striae_model::{ContactSurface, Model, RigidShape};
 
 use super::{Advice, Topic, shape::extent};
@@ -32,7 +32,9 @@ pub(super) fn look(model: &Model, advice: &mut Advice) {
         if !(SMALL..LARGE).contains(&(own / size)) {
             let (name, body) = (&rigid.name, &body.name);
             let text = format!(
-                "rigid surface `{name}` is {own:.3e} long, but body `{body}`, which it is to touch, {size:.3e}; are both meshes in one unit of length?"
+                "rigid surface `{name}` is {own} long, but body `{body}`, which it is to touch, {size}; are both meshes in one unit of length?",
+                own = significant(own, 4),
+                size = significant(size, 4)
             );
             advice.warn(Topic::Units, name, text);
         }

@@ -1,5 +1,6 @@
 //! Restraint of bodies by ties, and motions that ties leave free.
 
+use striae_mesh::significant;
 use striae_model::Model;
 use striae_solve::tie::Ties;
 
@@ -24,14 +25,18 @@ pub(super) fn look(model: &Model, advice: &mut Advice) {
     for (joint, tie) in ties.joints.iter().zip(&model.ties) {
         let names = joint.bodies.map(|body| model.bodies[body].name.as_str());
         let mut text = format!(
-            "tie `{}`: an area of {:.6e} of `{}` and `{}` is glued; nodes of `{}` follow",
-            tie.name, joint.area, names[0], names[1], names[joint.follows]
+            "tie `{}`: an area of {} of `{}` and `{}` is glued; nodes of `{}` follow",
+            tie.name,
+            significant(joint.area, 7),
+            names[0],
+            names[1],
+            names[joint.follows]
         );
         if tie.moved > ROUND_OFF * joint.facet_size {
             let share = 100.0 * tie.moved / joint.facet_size;
             text += &format!(
-                " and were moved by up to {:.3e}, {share:.2} % of the facet size, onto the other surface",
-                tie.moved
+                " and were moved by up to {}, {share:.2} % of the facet size, onto the other surface",
+                significant(tie.moved, 4)
             );
         }
         for (name, cover) in names.iter().zip(joint.cover) {

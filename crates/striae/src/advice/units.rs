@@ -5,6 +5,7 @@
 //! modulus above 2e8 is in pascals or the like, so lengths are in metres. Waves travel at
 //! `sqrt(E/rho)`, in no solid faster than 2e4 m/s = 2e7 mm/s.
 
+use striae_mesh::significant;
 use striae_model::{Body, BodyId, ContactSurface, LoadKind, Model, RigidId};
 
 use super::{
@@ -59,7 +60,10 @@ fn loads(model: &Model, body: BodyId, [soft, stiff]: [f64; 2], advice: &mut Advi
     let about = |modulus: f64| {
         let strain = largest / modulus;
         format!(
-            "body `{name}`: its largest load, {largest:.3e}, over its Young's modulus, {modulus:.3e}, is a strain of {strain:.1e}"
+            "body `{name}`: its largest load, {largest}, over its Young's modulus, {modulus}, is a strain of {strain}",
+            largest = significant(largest, 4),
+            modulus = significant(modulus, 4),
+            strain = significant(strain, 2)
         )
     };
     if largest > 0.0 && largest / soft < NO_STRAIN {
@@ -96,8 +100,8 @@ fn forces(model: &Model, body: BodyId, modulus: f64, advice: &mut Advice) {
             Topic::Units,
             name,
             format!(
-                "body `{name}`: the largest force that drives the bodies it meets, {largest:.3e}, hardly strains a body of size {size:.3e} and Young's modulus {modulus:.3e} (by about {strain:.1e}); are they in one system of units?"
-            ),
+                "body `{name}`: the largest force that drives the bodies it meets, {largest}, hardly strains a body of size {size} and Young's modulus {modulus} (by about {strain}); are they in one system of units?",
+        largest = significant(largest, 4), size = significant(size, 4), modulus = significant(modulus, 4), strain = significant(strain, 2)),
         );
     }
 }
@@ -120,8 +124,8 @@ fn lengths(body: &Body, modulus: f64, advice: &mut Advice) {
             Topic::Units,
             name,
             format!(
-                "body `{name}`: a Young's modulus of {modulus:.3e} must be in pascals, so lengths are in metres, and it would be {longest:.3e} m long; with lengths in mm, moduli and pressures are in MPa"
-            ),
+                "body `{name}`: a Young's modulus of {modulus} must be in pascals, so lengths are in metres, and it would be {longest} m long; with lengths in mm, moduli and pressures are in MPa",
+        modulus = significant(modulus, 4), longest = significant(longest, 4)),
         );
     }
 }
@@ -138,8 +142,8 @@ fn soft(body: &Body, [least, most]: [f64; 2], advice: &mut Advice) {
             Topic::Units,
             name,
             format!(
-                "body `{name}`: if its Young's modulus of {most:.3e} is in pascals, lengths are in metres, and it is {longest:.3e} m long; with lengths in mm, moduli and pressures are in MPa"
-            ),
+                "body `{name}`: if its Young's modulus of {most} is in pascals, lengths are in metres, and it is {longest} m long; with lengths in mm, moduli and pressures are in MPa",
+        most = significant(most, 4), longest = significant(longest, 4)),
         );
     }
 }
@@ -153,8 +157,8 @@ fn waves(body: &Body, part: &Part, advice: &mut Advice) {
             Topic::Units,
             name,
             format!(
-                "{about}: with Young's modulus {modulus:.3e} and density {density:.3e} waves would travel at {speed:.1e}, faster than in any solid; with N, mm and s densities are in t/mm^3 and moduli in MPa"
-            ),
+                "{about}: with Young's modulus {modulus} and density {density} waves would travel at {speed}, faster than in any solid; with N, mm and s densities are in t/mm^3 and moduli in MPa",
+        modulus = significant(modulus, 4), density = significant(density, 4), speed = significant(speed, 2)),
         );
     }
 }

@@ -29,7 +29,7 @@ fn springs_without_force_or_direction_are_refused() {
     );
     assert_eq!(
         told(spring_to_point("s", weight(), [1.0, 0.0, 0.0]).stiffness(1.0)),
-        "springs[0].b: spring `s`: both of its ends are at (1.000000, 0.000000, 0.000000), so it \
+        "springs[0].b: spring `s`: both of its ends are at (1, 0, 0), so it \
          has no direction; give it a `direction`, or ends that are apart"
     );
     let many = spring("s", weight(), nodes_of("block", "zmin")).stiffness(1.0);

@@ -110,7 +110,7 @@ b = { body = "lower", facets = "zmax" }
             0.6,
             GLUE,
             &[
-                "`lower` and `upper` are 1.000e-1 apart, 30 % of the facet size",
+                "`lower` and `upper` are 0.1 apart, 30 % of the facet size",
                 "set `within`",
             ],
         ),
@@ -119,7 +119,7 @@ b = { body = "lower", facets = "zmax" }
             GLUE,
             &[
                 "do not meet",
-                "nearest of their nodes are 1.500e0 apart",
+                "nearest of their nodes are 1.5 apart",
                 "within",
             ],
         ),

@@ -3,7 +3,9 @@
 use std::{collections::BTreeMap, fmt::Write, path::Path};
 
 use striae::mesh_file::{MaterialCard, Reading, RigidSurfaceMesh, unused_note};
-use striae_mesh::{CellKind, Mesh, Quality, Vec3, quality::SMALL_SCALED_JACOBIAN};
+use striae_mesh::{
+    CellKind, Mesh, Quality, Vec3, place, quality::SMALL_SCALED_JACOBIAN, significant,
+};
 
 /// Lines about the mesh of a body.
 pub fn of_body(file: &Path, reading: &Reading) -> String {
@@ -16,10 +18,11 @@ pub fn of_body(file: &Path, reading: &Reading) -> String {
         format!("  {} nodes", mesh.positions.len()),
     ];
     lines.extend(kinds(mesh));
-    lines.push(format!("  volume {:.6e}", quality.volume));
+    lines.push(format!("  volume {}", significant(quality.volume, 7)));
     lines.push(format!(
-        "  edges from {:.6e} to {:.6e}",
-        quality.shortest_edge, quality.longest_edge
+        "  edges from {} to {}",
+        significant(quality.shortest_edge, 7),
+        significant(quality.longest_edge, 7)
     ));
     lines.push(shape(reading, &quality));
     lines.extend(element_sets(mesh));
@@ -48,20 +51,14 @@ pub fn of_surface(file: &Path, surface: &RigidSurfaceMesh) -> String {
         extent(&low, &high),
         format!("  {} nodes", positions.len()),
         format!("  facets of a rigid surface: {}", surface.facets.len()),
-        format!("  area {area:.6e}"),
+        format!("  area {area}", area = significant(area, 7)),
     ]
     .join("\n")
         + "\n"
 }
 
 fn extent(low: &Vec3, high: &Vec3) -> String {
-    let corner = |x: &Vec3| format!("({}, {}, {})", digits(x.x), digits(x.y), digits(x.z));
-    format!("  from {} to {}", corner(low), corner(high))
-}
-
-/// A coordinate by nine digits without zeros at its end.
-fn digits(value: f64) -> f64 {
-    format!("{value:.8e}").parse().unwrap_or(value)
+    format!("  from {} to {}", place(low), place(high))
 }
 
 /// A line for each kind of elements.
@@ -146,7 +143,7 @@ fn table(head: [&str; 3], rows: Vec<(&str, usize, Option<f64>)>) -> Vec<String> 
     };
     let mut lines = vec![line(head[0], head[1], head[2])];
     lines.extend(rows.into_iter().map(|(name, count, size)| {
-        let size = size.map_or_else(String::new, |size| format!("{size:.6e}"));
+        let size = size.map_or_else(String::new, |size| significant(size, 7));
         line(name, &count.to_string(), &size)
     }));
     lines

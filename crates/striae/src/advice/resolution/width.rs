@@ -15,7 +15,7 @@
 use std::collections::BTreeSet;
 
 use striae_contact::initial::Fit;
-use striae_mesh::{Face, Mesh, NodeId, Vec3};
+use striae_mesh::{Face, Mesh, NodeId, Vec3, place, significant};
 use striae_model::{BodyId, ContactSurface, Freedom, Model, Pair, RigidShape, Step};
 
 use super::super::{Advice, Topic};
@@ -70,8 +70,12 @@ pub(in crate::advice) fn look(
     let count = width / size;
     if count < FEW {
         let text = format!(
-            "pair `{}`: in step `{}` contact is about {width:.1e} wide at ({:.6}, {:.6}, {:.6}), {count:.1} facets of `{name}` of {size:.1e}; forces need about five facets over the contact, pressures ten: refine `{name}` there",
-            pair.name, step.name, middle.x, middle.y, middle.z
+            "pair `{}`: in step `{}` contact is about {width} wide at {}, {count:.1} facets of `{name}` of {size}; forces need about five facets over the contact, pressures ten: refine `{name}` there",
+            pair.name,
+            step.name,
+            place(&middle),
+            width = significant(width, 2),
+            size = significant(size, 2)
         );
         advice.note(Topic::Fit, &pair.name, text);
     }
