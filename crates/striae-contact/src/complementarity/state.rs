@@ -60,6 +60,8 @@ pub(super) struct NodeState<'a> {
     pub(super) friction: &'a Friction,
     numbering: Numbering,
     prescribed: &'a Prescribed,
+    /// `true` where the surface of the node touches itself.
+    is_on_itself: bool,
     /// Lanes that the quantities depend on.
     pub(super) lanes: Lanes<'a>,
     /// The gap.
@@ -128,6 +130,7 @@ impl<'a> NodeState<'a> {
             friction,
             numbering,
             prescribed,
+            is_on_itself: configuration.pair.is_self_contact(),
             lanes,
             gap: Q::variable(gap.value, GAP),
             slip: of_slip,
@@ -189,11 +192,24 @@ impl<'a> NodeState<'a> {
     /// room for one more.
     pub(super) fn is_free(&self) -> bool {
         let reaches = &self.node.kinematics.reaches;
+        let position = |first: u32| match self.numbering.unknown(first) {
+            Unknown::Position { side, node, .. } => Some((side, node)),
+            _ => None,
+        };
+        let own = (self.node.side, self.node.node);
+        let of_own = reaches
+            .iter()
+            .find(|(first, _)| position(*first) == Some(own));
         reaches.iter().any(|(first, reach)| {
-            let Unknown::Position { side, node, .. } = self.numbering.unknown(*first) else {
+            let Some((side, node)) = position(*first) else {
                 return false;
             };
-            let answers = side != self.node.side || node == self.node.node;
+            // A surface that touches itself has one side; what faces the node is pushed the other way.
+            let is_opposite = match self.is_on_itself {
+                true => of_own.is_some_and(|(_, own)| own.dot(reach) < 0.0),
+                false => side != own.0,
+            };
+            let answers = is_opposite || (side, node) == own;
             answers && self.prescribed.free_slope(side, node, reach).amax() > FIXED
         })
     }

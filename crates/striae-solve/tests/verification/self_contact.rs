@@ -193,6 +193,50 @@ fn two_pieces_of_one_body_touch_as_two_bodies_do() {
     }
 }
 
+/// Nodes whose displacement is prescribed feel what touches them, be it of the same surface.
+#[test]
+fn a_prescribed_wall_is_touched_as_that_of_another_body() {
+    let meshes = [
+        block([0.0; 3], [1.0, 1.0, 0.5], [5, 5, 2]),
+        block([0.2, 0.2, 0.5], [0.6, 0.6, 0.5], [3, 3, 2]),
+    ];
+    let meshes = meshes.map(|block| block.mesh().unwrap());
+    let pressed = |mut model: Model, [wall, top]: [(&str, &str); 2]| {
+        let mut press = step();
+        press.increments = increments(0.25, 1e-3);
+        press.displacements = vec![
+            model.hold(wall.0, wall.1, [Some(0.0); 3]),
+            model.hold(top.0, top.1, [Some(0.0), Some(0.0), Some(-0.05)]),
+        ];
+        let mut drag = step();
+        drag.increments = increments(0.25, 1e-3);
+        drag.displacements = vec![model.hold(top.0, top.1, [Some(0.1), Some(0.03), Some(-0.05)])];
+        model.steps = vec![press, drag];
+        completed(model)
+    };
+    let [lower, upper] = meshes.clone();
+    let mut pair = model(vec![
+        body("lower", lower, rubber(1.0, 0.3)),
+        body("upper", upper, rubber(1.0, 0.3)),
+    ]);
+    pair.touch(("lower", "zmax"), ("upper", "zmin"), coulomb(0.3));
+    let pair = pressed(pair, [("lower", "zmax"), ("upper", "zmax")]);
+    let mut one = model(vec![body(
+        "both",
+        with_skin(pieces(&meshes)),
+        rubber(1.0, 0.3),
+    )]);
+    one.touch_itself("both", &["skin"], coulomb(0.3));
+    let one = pressed(one, [("both", "0.zmax"), ("both", "1.zmax")]);
+    let apart = apart(&one, &pair);
+    assert!(apart.iter().all(|apart| *apart < 1e-7), "{apart:?}");
+    let kept = |run: &Run| {
+        let nodes = run.last().pairs[0].nodes.iter().flatten();
+        nodes.filter(|node| node.pressure > 0.0).count()
+    };
+    assert_eq!(kept(&one), kept(&pair));
+}
+
 /// Two blocks that are pressed on each other and dragged, touching with these faces.
 fn dragged(faces: [&str; 2], feature_angle: Option<f64>) -> Model {
     let [lower, upper] = [
