@@ -27,6 +27,7 @@ mod material;
 mod names;
 mod part;
 mod sets;
+mod surface;
 mod unused;
 
 use super::collected::Collected;

@@ -152,6 +152,13 @@ impl<'a> Row<'a> {
         }
     }
 
+    /// It with so many words at most.
+    pub fn shortened(&self, words: usize) -> Self {
+        let mut row = self.clone();
+        row.words.truncate(words);
+        row
+    }
+
     /// A row of a single word.
     pub(super) fn of_word(line: usize, word: &'a str) -> Self {
         Self {

@@ -91,6 +91,11 @@ impl Lower {
         facets.map(|(number, element)| (*number, element.line))
     }
 
+    /// Returns whether a number is that of no element here.
+    pub(super) fn is_solid(&self, number: u64) -> bool {
+        !self.elements.contains_key(&number) && !self.ignored_numbers.contains(&number)
+    }
+
     /// The faces that an element is, none where it is no facet.
     pub(super) fn faces(&self, number: u64) -> Vec<FileFace> {
         let element = self.elements.get(&number);
