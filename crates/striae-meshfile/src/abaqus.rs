@@ -187,6 +187,10 @@ impl<'a> Reader<'a> {
                 let fault = keyword.fault("nodes and elements written out one by one");
                 Err(fault.with_remedy("write the mesh out flat with its preprocessor"))
             }
+            "PARAMETER" => {
+                let fault = keyword.fault("numbers in the places of parameters");
+                Err(fault.with_remedy("write the value for each name in angle brackets"))
+            }
             _ => {
                 self.unused.insert(keyword.line);
                 Ok(())

@@ -84,11 +84,11 @@ impl Model<'_> {
         let value = if course.is_absolute { 1.0 } else { value };
         let reached = course.points[course.points.len() - 1][1] * value;
         let mut all = course.points.iter();
-        if all.all(|[_, a]| a * value == reached) && reached == present {
+        if all.all(|[_, a]| a * value == reached) {
             return Ok(Approach {
                 reached,
                 target: reached,
-                curve: None,
+                curve: (reached != present).then(|| "constant".to_owned()),
             });
         }
         if over == Over::Step && reached != present && course.formula.is_none() {

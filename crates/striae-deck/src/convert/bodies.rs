@@ -265,6 +265,11 @@ impl<'a> Model<'a> {
         for (line, what) in others {
             self.list(line, what);
         }
+        if self.bodies.is_empty() {
+            let line = self.keywords.first().map_or(1, |keyword| keyword.line);
+            let what = "the model has no solid elements such as C3D8; a deck is of solids in three dimensions";
+            self.list(line, what);
+        }
         self.read_materials();
         Ok(())
     }
@@ -293,7 +298,7 @@ impl<'a> Model<'a> {
                 if pieces > 1 {
                     let line = self.keywords.first().map_or(1, |keyword| keyword.line);
                     let what = format!(
-                        "the mesh has {pieces} pieces without element sets of their own; they become one body"
+                        "the mesh has {pieces} pieces that are no element sets; they become one body; give each an *ELSET to have several"
                     );
                     self.list(line, what);
                 }

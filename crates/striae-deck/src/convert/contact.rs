@@ -310,13 +310,8 @@ impl<'a> Model<'a> {
 
     /// Bodies by place with the facet set that a word stands for.
     pub(super) fn facets(&mut self, word: &str) -> Vec<(usize, String)> {
-        let exact = self.bodies.iter().position(|body| {
-            let (instance, _) = word.rsplit_once('.').unwrap_or_default();
-            body.name.eq_ignore_ascii_case(instance)
-        });
-        let bodies = self.bodies.iter_mut().enumerate();
-        let bodies = bodies.filter(|(at, _)| exact.is_none_or(|exact| exact == *at));
-        let found = bodies.filter_map(|(at, body)| Some((at, body.facet_set(word)?)));
+        let bodies = self.bodies_named(word).into_iter();
+        let found = bodies.filter_map(|at| Some((at, self.bodies[at].facet_set(word)?)));
         found.collect()
     }
 

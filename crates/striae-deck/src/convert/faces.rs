@@ -58,6 +58,9 @@ impl Model<'_> {
                 let Some((side, value)) = value(row) else {
                     continue;
                 };
+                if !self.bodies_named(row.words[0]).contains(&at) {
+                    continue;
+                }
                 let statement = (*keyword, value.to_bits());
                 for element in body.elements_of(row.words[0]) {
                     let sides = mesh.kind(element).faces_of_side(side);

@@ -160,7 +160,7 @@ fn law(keyword: &Keyword<'_>) -> Result<(FrictionLaw, Vec<String>), String> {
                 if rows.len() > 1 {
                     notes.push("by more than slip rate or pressure: its first row is taken".into());
                 } else if first[count..].iter().any(|other| *other != 0.0) {
-                    let what = "with one row: numbers after the coefficient say nothing here (a slip rate; a stick slope in CalculiX)";
+                    let what = "with one row: the numbers after the coefficient are left out (slip rate, pressure; a stick slope in CalculiX)";
                     notes.push(what.to_owned());
                 }
             }

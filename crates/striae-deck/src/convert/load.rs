@@ -205,9 +205,9 @@ impl<'a> Model<'a> {
 
     /// Bodies of which a word stands for all elements, by place.
     fn weighed(&self, word: &str) -> Vec<usize> {
-        let bodies = self.bodies.iter().enumerate();
-        let all = bodies.filter(|(_, body)| word.is_empty() || body.is_within(word));
-        all.map(|(at, _)| at).collect()
+        let mut all = self.bodies_named(word);
+        all.retain(|at| word.is_empty() || self.bodies[*at].is_within(word));
+        all
     }
 
     fn begin_loads(

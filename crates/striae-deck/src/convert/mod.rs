@@ -20,6 +20,7 @@ mod motion;
 mod output;
 mod points;
 mod profile;
+mod remedy;
 mod rigid;
 mod slip_direction;
 mod step;
@@ -137,7 +138,8 @@ impl<'a> Model<'a> {
                 && !self.used.contains(&keyword.line)
                 && !self.listed.contains_key(&keyword.line)
             {
-                self.list(keyword.line, format!("*{name}"));
+                let advice = remedy::remedy(name);
+                self.list(keyword.line, format!("*{name}{advice}"));
             }
         }
         let lines = self.listed.iter();

@@ -288,15 +288,22 @@ impl<'a> Model<'a> {
 
     /// Bodies by place with the node set that a word stands for.
     pub(super) fn nodes(&mut self, word: &str) -> Vec<(usize, String)> {
+        let bodies = self.bodies_named(word).into_iter();
+        bodies
+            .filter_map(|at| Some((at, self.bodies[at].node_set(word)?)))
+            .collect()
+    }
+
+    /// Bodies by place that a word may speak of: the one whose name it begins with, or all.
+    pub(super) fn bodies_named(&self, word: &str) -> Vec<usize> {
         let instance = word.rsplit_once('.').map(|(instance, _)| instance);
         let exact = self.bodies.iter().position(|body| {
             instance.is_some_and(|instance| body.name.eq_ignore_ascii_case(instance))
         });
-        let bodies = self.bodies.iter_mut().enumerate();
-        let bodies = bodies.filter(|(at, _)| exact.is_none_or(|exact| exact == *at));
-        bodies
-            .filter_map(|(at, body)| Some((at, body.node_set(word)?)))
-            .collect()
+        match exact {
+            Some(exact) => vec![exact],
+            None => (0..self.bodies.len()).collect(),
+        }
     }
 
     pub(super) fn point(&mut self, keyword: &Keyword<'_>, word: &str) -> Option<Point> {

@@ -81,10 +81,13 @@ impl<'a> Model<'a> {
         );
         self.nonlinearity(within[0]);
         let Some(procedure) = self.procedure(within, start) else {
-            self.list(
-                within[0].line,
-                format!("*STEP `{name}`: no static or implicit dynamic step"),
-            );
+            let mut others = within.iter();
+            let is_explicit = others.any(|keyword| keyword.parameter("EXPLICIT").is_some());
+            let what = match is_explicit {
+                true => "an explicit step; take *DYNAMIC without EXPLICIT",
+                false => "no static or implicit dynamic step",
+            };
+            self.list(within[0].line, format!("*STEP `{name}`: {what}"));
             for keyword in within.iter().skip(1) {
                 if !keyword.name.starts_with("END ") {
                     self.list(keyword.line, format!("*{} of this step", keyword.name));

@@ -118,12 +118,14 @@ impl<'a> Keyword<'a> {
         }
     }
 
-    /// The rows, each joined with those that continue it.
-    pub(super) fn joined_rows(&self) -> Vec<Row<'a>> {
+    /// The rows, each joined with those that continue it until it has so many words.
+    pub(super) fn joined_rows(&self, words: usize) -> Vec<Row<'a>> {
         let mut joined: Vec<Row<'a>> = Vec::new();
         for row in &self.rows {
             match joined.last_mut() {
-                Some(last) if last.continued == Continued::OnNextLine => {
+                Some(last)
+                    if last.continued == Continued::OnNextLine && last.words.len() < words =>
+                {
                     last.words.extend(&row.words);
                     last.continued = row.continued;
                 }

@@ -58,7 +58,7 @@ impl Lower {
         } else {
             starts(&LINES).then_some(1)
         };
-        for row in keyword.joined_rows() {
+        for row in keyword.joined_rows(usize::MAX) {
             let expected = "an element number and node numbers";
             let words = row.words.iter().filter(|word| !word.is_empty());
             let numbers = words.map(|word| parsed(row.line, word, expected));

@@ -100,7 +100,7 @@ impl Part {
         self.ask(&name);
         let expected = format!("an element number and {nodes} node numbers");
         keyword.refuse_input()?;
-        for row in keyword.joined_rows() {
+        for row in keyword.joined_rows(nodes + 1) {
             let numbers: Vec<u64> = row
                 .words
                 .iter()
