@@ -228,8 +228,8 @@ impl Model<'_> {
             "EQUALLY SPACED" => {
                 let number = |key| keyword.parameter(key).and_then(striae_meshfile::finite);
                 let interval = number("FIXED INTERVAL");
-                let interval = interval
-                    .ok_or_else(|| format!("amplitude `{name}` without FIXED INTERVAL"))?;
+                let interval =
+                    interval.ok_or_else(|| format!("amplitude `{name}` without FIXED INTERVAL"))?;
                 let begin = number("BEGIN").unwrap_or(0.0);
                 let place = |(at, a): (usize, &f64)| [begin + at as f64 * interval, *a];
                 let pairs = all.iter().enumerate().map(place).collect();

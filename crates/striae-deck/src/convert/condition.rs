@@ -198,7 +198,8 @@ impl<'a> Model<'a> {
             return vec![(Target::Rigid(rigid), 3)];
         }
         let sets = self.nodes(word).into_iter();
-        sets.map(|(body, set)| (Target::Nodes(body, set), 0)).collect()
+        sets.map(|(body, set)| (Target::Nodes(body, set), 0))
+            .collect()
     }
 }
 

@@ -162,7 +162,10 @@ impl<'a> Model<'a> {
                 let interaction = interaction.name.clone();
                 self.pairs.push(Pair { name, interaction });
             }
-            Ok(_) => self.list(row.line, format!("contact of the rigid `{word}` with itself")),
+            Ok(_) => self.list(
+                row.line,
+                format!("contact of the rigid `{word}` with itself"),
+            ),
             Err(what) => {
                 self.list(row.line, format!("contact of `{word}` with itself: {what}"));
             }

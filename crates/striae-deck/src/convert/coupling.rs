@@ -115,7 +115,10 @@ impl<'a> Model<'a> {
             }
         }
         for (point, rows) in beams {
-            let tied = rows.iter().flat_map(|row| self.nodes(row.words[1])).collect();
+            let tied = rows
+                .iter()
+                .flat_map(|row| self.nodes(row.words[1]))
+                .collect();
             self.tie_to(keyword, point, "beams", tied);
         }
     }

@@ -10,9 +10,10 @@ impl Model<'_> {
     /// Lists elements that nothing is made of.
     pub(super) fn list_other_elements(&mut self) {
         let keywords = self.keywords;
-        let others = self.instances.iter().filter(|instance| {
-            !instance.is_solid() && !instance.kinds.is_empty()
-        });
+        let others = self
+            .instances
+            .iter()
+            .filter(|instance| !instance.is_solid() && !instance.kinds.is_empty());
         // Their instances are listed as a whole.
         let of_others = others.flat_map(|instance| instance.own.iter().map(|own| own.line));
         let of_others: BTreeSet<usize> = of_others.collect();

@@ -195,7 +195,8 @@ fn law(keyword: &Keyword<'_>) -> Result<(FrictionLaw, Vec<String>), String> {
 fn table(rows: &[Vec<f64>], count: usize) -> Option<String> {
     let column = |at: usize| -> Vec<f64> {
         let rows = rows.iter();
-        rows.map(|row| row.get(at).copied().unwrap_or(0.0)).collect()
+        rows.map(|row| row.get(at).copied().unwrap_or(0.0))
+            .collect()
     };
     let varies = |at: usize| column(at).windows(2).any(|pair| pair[0] != pair[1]);
     let longest = rows.iter().map(Vec::len).max().unwrap_or(0);

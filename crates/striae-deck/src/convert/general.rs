@@ -1,7 +1,7 @@
 //! General contact: of everything, or between surfaces that have names.
 
-use super::friction::Interaction;
 use super::Model;
+use super::friction::Interaction;
 use crate::write::value::{list, text};
 use striae_meshfile::{Keyword, Row};
 

@@ -49,9 +49,8 @@ impl<'a> Model<'a> {
                 }
             };
             if targets.is_empty() || !(1..=limit).contains(&component) {
-                let what = format!(
-                    "*INITIAL CONDITIONS `{words}`: velocities are those of whole bodies"
-                );
+                let what =
+                    format!("*INITIAL CONDITIONS `{words}`: velocities are those of whole bodies");
                 self.list(row.line, what);
                 continue;
             }

@@ -6,8 +6,8 @@
 
 use super::amplitude::{Approach, Over, Period};
 use super::bodies::Body;
-use super::faces::side;
 use super::condition::{History, Stated, curve_key};
+use super::faces::side;
 use super::{Model, has, numbers};
 use crate::write::value::{list, number, text};
 use std::collections::BTreeSet;
@@ -57,12 +57,7 @@ pub(super) struct Load {
 
 impl<'a> Model<'a> {
     /// Reads `*CLOAD`.
-    pub(super) fn forces(
-        &mut self,
-        keyword: &'a Keyword<'a>,
-        period: Period,
-        stated: &mut Stated,
-    ) {
+    pub(super) fn forces(&mut self, keyword: &'a Keyword<'a>, period: Period, stated: &mut Stated) {
         self.begin_loads(keyword, &[], Family::Concentrated, stated);
         for row in &keyword.rows {
             let word = row.words[0];
@@ -145,7 +140,13 @@ impl<'a> Model<'a> {
                     (_, true) => Loaded::Dead(body, facets),
                     (_, false) => Loaded::Follower(body, facets),
                 };
-                self.state_load(keyword, row, (Family::Surface, loaded, vector), period, stated);
+                self.state_load(
+                    keyword,
+                    row,
+                    (Family::Surface, loaded, vector),
+                    period,
+                    stated,
+                );
             }
         }
     }
@@ -319,16 +320,26 @@ impl<'a> Model<'a> {
                 target[at] = 0.0;
                 continue;
             }
-            let found: Approach = self.approach(amplitude, of.period, over, [present[at], value])?;
+            let found: Approach =
+                self.approach(amplitude, of.period, over, [present[at], value])?;
             if amplitude.is_some() && !is_first && curve != found.curve {
-                return Err("components whose courses differ; put them on sets of their own".into());
+                return Err(
+                    "components whose courses differ; put them on sets of their own".into(),
+                );
             }
             is_first = false;
             (target[at], reached[at]) = (found.target, found.reached);
             curve = found.curve.or(curve);
         }
         let line = of.line;
-        Ok((Load { target, curve, line }, reached))
+        Ok((
+            Load {
+                target,
+                curve,
+                line,
+            },
+            reached,
+        ))
     }
 }
 

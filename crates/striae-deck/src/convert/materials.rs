@@ -10,7 +10,7 @@ use crate::write::{
 
 impl Model<'_> {
     /// Reads materials, and what elements are of them.
-    pub(super)     fn read_materials(&mut self) {
+    pub(super) fn read_materials(&mut self) {
         let Some(first) = self.bodies.first() else {
             return;
         };

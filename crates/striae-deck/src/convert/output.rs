@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use striae_meshfile::Keyword;
 
 /// Fields by what asks for them.
-const BODY_FIELDS: [(&str, &[&str]); 15] = [
+const BODY_FIELDS: [(&str, &[&str]); 9] = [
     ("displacement", &["U", "UT"]),
     ("velocity", &["V", "VT"]),
     ("cauchy-stress", &["S"]),
@@ -19,21 +19,15 @@ const BODY_FIELDS: [(&str, &[&str]); 15] = [
     ("principal-strain", &["LEP", "EP"]),
     ("strain-energy-density", &["ENER", "SENER"]),
     ("history-variables", &["PE", "PEEQ", "PEMAG", "SDV"]),
-    ("history-variables", &["PEQ"]),
-    ("displacement", &["COORD"]),
-    ("displacement", &["RF", "RT"]),
-    ("displacement", &["CF"]),
-    ("displacement", &["ENERGY", "ALLEN"]),
-    ("displacement", &["EVOL"]),
 ];
-const CONTACT_FIELDS: [(&str, &[&str]); 6] = [
+const CONTACT_FIELDS: [(&str, &[&str]); 4] = [
     ("traction", &["CSTRESS", "CSTR", "CPRESS", "CSHEAR"]),
     ("gap", &["CDISP", "CDIS", "COPEN"]),
     ("slip", &["CDISP", "CDIS", "CSLIP"]),
     ("status", &["CSTATUS"]),
-    ("traction", &["CFORCE", "CF", "CFN", "CFS"]),
-    ("traction", &["CELS", "CNUM"]),
 ];
+/// Beginnings of what the history of every run has of nodes.
+const RECORDED: [&str; 4] = ["RF", "RM", "RT", "CF"];
 
 /// Output that a model requests.
 #[derive(Default)]
@@ -104,7 +98,9 @@ impl<'a> Model<'a> {
         }
         let value = |key: &str| keyword.parameter(key).and_then(striae_meshfile::finite);
         let count = value("NUMBER INTERVAL").or_else(|| value("INTERVAL"));
-        let interval = count.filter(|count| *count > 0.0).map(|count| duration / count);
+        let interval = count
+            .filter(|count| *count > 0.0)
+            .map(|count| duration / count);
         match value("TIME INTERVAL").or(interval) {
             Some(interval) if interval > 0.0 => self.output.intervals.push(interval),
             _ => self.every(keyword),
@@ -141,7 +137,9 @@ impl<'a> Model<'a> {
         };
         let mut unknown = Vec::new();
         for word in &words {
-            let fields = known.iter().filter(|(_, names)| names.contains(&word.as_str()));
+            let fields = known
+                .iter()
+                .filter(|(_, names)| names.contains(&word.as_str()));
             let fields: Vec<&'static str> = fields.map(|(field, _)| *field).collect();
             if fields.is_empty() {
                 unknown.push(word.as_str());
@@ -152,7 +150,7 @@ impl<'a> Model<'a> {
             }
         }
         if !unknown.is_empty() {
-            let what = format!("*{}: {}", keyword.name, unknown.join(", "));
+            let what = format!("*{}: no field for {}", keyword.name, unknown.join(", "));
             self.list(keyword.line, what);
         }
     }
@@ -169,11 +167,24 @@ impl<'a> Model<'a> {
             }
             return;
         }
-        let is_of_displacements = words.iter().any(|word| {
+        let is_displacement = |word: &&String| {
             let component = word.strip_prefix('U');
             component.is_some_and(|of| ["", "1", "2", "3", "T"].contains(&of))
-        });
-        let Some(word) = keyword.parameter("NSET").filter(|_| is_of_displacements) else {
+        };
+        let (known, others): (Vec<&String>, Vec<&String>) = words.iter().partition(is_displacement);
+        let others = others.into_iter().map(String::as_str);
+        let others = others.filter(|word| !RECORDED.iter().any(|of| word.starts_with(of)));
+        let others: Vec<&str> = others.collect();
+        if !others.is_empty() {
+            let what = format!("*{} over time: no {}", keyword.name, others.join(", "));
+            self.list(keyword.line, what);
+        }
+        if known.is_empty() {
+            return;
+        }
+        let Some(word) = keyword.parameter("NSET") else {
+            let what = format!("*{} of all nodes: name a set", keyword.name);
+            self.list(keyword.line, what);
             return;
         };
         if self.rigid_of_point(word).is_some() || self.rigid_of_turning_point(word).is_some() {
@@ -205,7 +216,10 @@ impl<'a> Model<'a> {
             return;
         }
         self.used.insert(keyword.line);
-        self.list_parameters(keyword, &["WRITE", "FREQUENCY", "OVERLAY", "NUMBER INTERVAL"]);
+        self.list_parameters(
+            keyword,
+            &["WRITE", "FREQUENCY", "OVERLAY", "NUMBER INTERVAL"],
+        );
         let every = keyword.parameter("FREQUENCY");
         self.output.checkpoints = every.and_then(|word| word.parse().ok());
     }
@@ -235,7 +249,10 @@ impl<'a> Model<'a> {
             }
         }
         if !output.probes.is_empty() {
-            let probes = output.probes.values().map(|probe| format!("    {probe},\n"));
+            let probes = output
+                .probes
+                .values()
+                .map(|probe| format!("    {probe},\n"));
             table += &format!("probes = [\n{}]\n", probes.collect::<String>());
         }
         if let Some(every) = output.checkpoints {

@@ -21,16 +21,15 @@ impl Model<'_> {
     /// The shape of an analytical surface, and the line that states it.
     pub(super) fn analytical(&self, surface: &str) -> Result<(Shape, usize), String> {
         let (prefix, bare) = surface.rsplit_once('.').unwrap_or(("", surface));
-        let named = |keyword: &&&Keyword<'_>| {
-            keyword.name == "SURFACE" && has(keyword, "NAME", bare)
-        };
+        let named =
+            |keyword: &&&Keyword<'_>| keyword.name == "SURFACE" && has(keyword, "NAME", bare);
         let mut instances = self.instances.iter();
         let instance = instances.find(|instance| match prefix {
             "" => instance.own.iter().any(|keyword| named(&keyword)),
             _ => instance.name.eq_ignore_ascii_case(prefix),
         });
-        let instance = instance
-            .ok_or("an analytical surface outside of an instance; mesh it with R3D4")?;
+        let instance =
+            instance.ok_or("an analytical surface outside of an instance; mesh it with R3D4")?;
         let keyword = instance
             .own
             .iter()
@@ -57,7 +56,10 @@ impl Model<'_> {
                 Shape::Plane { point, normal }
             }
             ("CYLINDER", _) => {
-                let nodes = self.bodies.iter().flat_map(|body| &body.reading.mesh.positions);
+                let nodes = self
+                    .bodies
+                    .iter()
+                    .flat_map(|body| &body.reading.mesh.positions);
                 let along: Vec<f64> = nodes.map(|node| z.dot(&(node - origin))).collect();
                 let low = along.iter().copied().fold(f64::INFINITY, f64::min);
                 let high = along.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -66,8 +68,7 @@ impl Model<'_> {
                 }
                 let room = (high - low).max(f64::MIN_POSITIVE);
                 let place = |step: usize| low + room * (2.0 * step as f64 / ALONG as f64 - 0.5);
-                let point =
-                    |of: usize, step: usize| at(profile[of]) + z * place(step);
+                let point = |of: usize, step: usize| at(profile[of]) + z * place(step);
                 self.grid(profile.len(), ALONG + 1, false, point)
             }
             ("REVOLUTION", _) => {
@@ -93,10 +94,13 @@ impl Model<'_> {
         point: impl Fn(usize, usize) -> Vec3,
     ) -> Shape {
         let (mut positions, mut known) = (Vec::new(), HashMap::new());
+        let all = (0..profile).flat_map(|of| (0..places).map(move |step| (of, step)));
+        let size = all.map(|(of, step)| point(of, step).amax());
+        let size = size.fold(f64::MIN_POSITIVE, f64::max);
         let mut node = |of: usize, step: usize| {
             let x = point(of, step % places);
             // Points on the axis are one.
-            let key = [x.x, x.y, x.z].map(|x| (x * 1e9).round() as i128);
+            let key = [x.x, x.y, x.z].map(|x| (x / size * 1e9).round() as i64);
             *known.entry(key).or_insert_with(|| {
                 positions.push(x);
                 positions.len() - 1
@@ -106,7 +110,12 @@ impl Model<'_> {
         let mut facets = Vec::new();
         for of in 1..profile {
             for step in 0..last {
-                let corners = [(of - 1, step), (of, step), (of, step + 1), (of - 1, step + 1)];
+                let corners = [
+                    (of - 1, step),
+                    (of, step),
+                    (of, step + 1),
+                    (of - 1, step + 1),
+                ];
                 let mut nodes = corners.map(|(of, step)| node(of, step)).to_vec();
                 nodes.dedup();
                 if nodes.first() == nodes.last() {

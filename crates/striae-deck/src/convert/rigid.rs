@@ -1,8 +1,8 @@
 //! Rigid bodies: discrete and analytical surfaces, solids made rigid, and nodes tied to a point.
 
+use super::Model;
 use super::bodies::Body;
 use super::points::Point;
-use super::Model;
 use crate::write::value::{list, text, vector};
 use std::collections::BTreeSet;
 use striae_mesh::Vec3;
@@ -42,12 +42,7 @@ pub(super) enum Shape {
 }
 
 impl Rigid {
-    pub(super) fn new(
-        line: usize,
-        name: String,
-        shape: Shape,
-        reference: Option<Point>,
-    ) -> Self {
+    pub(super) fn new(line: usize, name: String, shape: Shape, reference: Option<Point>) -> Self {
         Self {
             name,
             line,
@@ -74,7 +69,8 @@ impl Rigid {
                 let positions = positions.iter().map(|x| format!("\n    {},", vector(x)));
                 let facets = facets.iter().map(|of| list(of.map(|at| at.to_string())));
                 let facets = facets.map(|of| format!("\n    {of},"));
-                let (positions, facets) = (positions.collect::<String>(), facets.collect::<String>());
+                let (positions, facets) =
+                    (positions.collect::<String>(), facets.collect::<String>());
                 format!("mesh = {{ positions = [{positions}\n], facets = [{facets}\n] }}")
             }
             Shape::Plane { point, normal } => {
@@ -219,12 +215,18 @@ impl<'a> Model<'a> {
                 Ok((shape, line)) => {
                     if let Shape::Facets(_, facets) = &shape {
                         let count = facets.len();
-                        let what = format!("analytical surface `{surface}` is made of {count} facets");
+                        let what =
+                            format!("analytical surface `{surface}` is made of {count} facets");
                         self.list(line, what);
                     }
                     let mut rigid = Rigid::new(keyword.line, name, shape, reference);
                     rigid.surfaces.insert(surface.to_uppercase());
                     self.used.insert(line);
+                    let keywords = self.keywords;
+                    let stated = keywords.iter().find(|keyword| keyword.line == line);
+                    if let Some(stated) = stated {
+                        self.list_parameters(stated, &["NAME", "TYPE", "INTERNAL"]);
+                    }
                     self.rigid.push(rigid);
                 }
                 Err(what) => self.list(keyword.line, format!("*RIGID BODY `{surface}`: {what}")),
@@ -300,8 +302,14 @@ impl<'a> Model<'a> {
         let exact = self.bodies.iter().position(|body| {
             instance.is_some_and(|instance| body.name.eq_ignore_ascii_case(instance))
         });
+        let mut instances = self.instances.iter();
+        let is_other = instances.any(|other| {
+            instance.is_some_and(|instance| other.name.eq_ignore_ascii_case(instance))
+        });
         match exact {
             Some(exact) => vec![exact],
+            // An instance that is no body has none of their sets.
+            None if is_other => Vec::new(),
             None => (0..self.bodies.len()).collect(),
         }
     }

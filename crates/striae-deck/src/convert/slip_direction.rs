@@ -59,7 +59,9 @@ impl<'a> Model<'a> {
                 }
             };
             for face in faces {
-                let [a, b, c, d] = mesh.face_nodes(face).map(|node| mesh.positions[node.index()]);
+                let [a, b, c, d] = mesh
+                    .face_nodes(face)
+                    .map(|node| mesh.positions[node.index()]);
                 normals.extend((c - a).cross(&(d - b)).try_normalize(0.0));
             }
         }
@@ -110,7 +112,9 @@ impl<'a> Model<'a> {
                 let tuple = |x: Vec3| list([x.x, x.y, x.z].map(number));
                 self.used.insert(keyword.line);
                 let (point, along) = (tuple(a), tuple(b - a));
-                Ok(format!("{key} = {{ point = {point}, direction = {along} }}"))
+                Ok(format!(
+                    "{key} = {{ point = {point}, direction = {along} }}"
+                ))
             }
             other => Err(format!("*ORIENTATION `{name}`, SYSTEM={other}")),
         }

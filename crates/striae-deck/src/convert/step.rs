@@ -208,8 +208,7 @@ impl<'a> Model<'a> {
                 continue;
             };
             let pairs = self.pairs.iter().filter(|pair| pair.interaction == name);
-            let entries =
-                pairs.map(|pair| format!("{{ pair = {}, {} }}", pair.name, law.text));
+            let entries = pairs.map(|pair| format!("{{ pair = {}, {} }}", pair.name, law.text));
             let entries: Vec<String> = entries.collect();
             if entries.is_empty() {
                 let what = format!("*CHANGE FRICTION of `{name}`, which no pair has");

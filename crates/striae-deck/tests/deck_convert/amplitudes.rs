@@ -42,8 +42,7 @@ fn tables_that_lead_back_are_followed() {
 
 #[test]
 fn equally_spaced_values() {
-    let way =
-        "*AMPLITUDE, NAME=Way, DEFINITION=EQUALLY SPACED, FIXED INTERVAL=0.5, BEGIN=0.5\n0., 2., 1.\n";
+    let way = "*AMPLITUDE, NAME=Way, DEFINITION=EQUALLY SPACED, FIXED INTERVAL=0.5, BEGIN=0.5\n0., 2., 1.\n";
     assert_course(way, 1e-14, |t| match t {
         t if t < 0.5 => 0.0,
         t if t < 1.0 => 2.0 * (t - 0.5),
@@ -79,7 +78,10 @@ fn absolute_values_need_no_reference() {
 fn velocities_are_integrated() {
     let (listed, constant) = course("", ", TYPE=VELOCITY");
     // Without the amplitude of that name there is nothing to follow.
-    assert_listed(&listed, &["*BOUNDARY of `Pad-1.High`: there is no *AMPLITUDE `Way`"]);
+    assert_listed(
+        &listed,
+        &["*BOUNDARY of `Pad-1.High`: there is no *AMPLITUDE `Way`"],
+    );
     assert!(constant.is_empty());
     let ramp = "*AMPLITUDE, NAME=Way\n0., 0., 2., 1.\n";
     let (listed, course) = course(ramp, ", TYPE=VELOCITY");
@@ -92,15 +94,28 @@ fn velocities_are_integrated() {
     let (_, listed, deck) = converted(&model("", &step));
     assert_listed(&listed, &[]);
     let stated = &deck.model.steps[0].displacements;
-    assert!(stated.iter().any(|of| of.numbers() == [Some(0.5), None, None]));
+    assert!(
+        stated
+            .iter()
+            .any(|of| of.numbers() == [Some(0.5), None, None])
+    );
 }
 
 #[test]
 fn what_is_no_course_is_listed() {
     for (amplitude, what) in [
-        ("*AMPLITUDE, NAME=Way, DEFINITION=USER\n", "with DEFINITION=USER"),
-        ("*AMPLITUDE, NAME=Way\n0., 0., 0., 1.\n", "with times that do not rise"),
-        ("*AMPLITUDE, NAME=Way, DEFINITION=PERIODIC\n1., 2.\n", "too few numbers"),
+        (
+            "*AMPLITUDE, NAME=Way, DEFINITION=USER\n",
+            "with DEFINITION=USER",
+        ),
+        (
+            "*AMPLITUDE, NAME=Way\n0., 0., 0., 1.\n",
+            "with times that do not rise",
+        ),
+        (
+            "*AMPLITUDE, NAME=Way, DEFINITION=PERIODIC\n1., 2.\n",
+            "too few numbers",
+        ),
         (
             "*AMPLITUDE, NAME=Way, DEFINITION=DECAY\n0., 1., 1., 1.\n",
             "that begins within a step",

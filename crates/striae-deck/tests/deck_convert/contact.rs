@@ -27,18 +27,28 @@ fn anisotropic_friction_is_orthotropic_along_x() {
         text.contains("mu_along = 0.1, mu_across = 0.4, slip_rule = \"associated\""),
         "{text}"
     );
-    assert!(text.contains("texture = { uniform = [1.0, 0.0, 0.0] } }\nb ="), "{text}");
+    assert!(
+        text.contains("texture = { uniform = [1.0, 0.0, 0.0] } }\nb ="),
+        "{text}"
+    );
 }
 
 #[test]
 fn anisotropic_friction_on_a_side_that_faces_x_is_along_z() {
     let friction = "*SURFACE INTERACTION, NAME=Fric\n*FRICTION, ANISOTROPIC\n0.1, 0.4
 *CONTACT PAIR, INTERACTION=Fric\nPad-1.Side, Base-1.Top\n";
-    let cube = CUBE.replace("*SURFACE, NAME=Top\n", "*SURFACE, NAME=Side\n1, S4\n*SURFACE, NAME=Top\n");
+    let cube = CUBE.replace(
+        "*SURFACE, NAME=Top\n",
+        "*SURFACE, NAME=Side\n1, S4\n*SURFACE, NAME=Top\n",
+    );
     let text = format!("{cube}*END ASSEMBLY\n{FOAM}{friction}{STEP}");
     let (_, made) = made(&text);
     assert_listed(&made.listed, &[]);
-    assert!(made.deck.contains("uniform = [0.0, 0.0, 1.0]"), "{}", made.deck);
+    assert!(
+        made.deck.contains("uniform = [0.0, 0.0, 1.0]"),
+        "{}",
+        made.deck
+    );
 }
 
 #[test]
@@ -84,9 +94,15 @@ fn friction_by_slip_rate_and_by_pressure() {
     let table = "by_pressure = { form = \"table\", pressures = [1.0, 5.0], factors = [1.0, 0.5] }";
     assert!(text.contains(table), "{text}");
     let (_, listed, _) = interaction("*FRICTION\n0.2, 0., 1.\n0.1, 1., 5.\n", ROW);
-    assert_listed(&listed, &["*FRICTION by more than slip rate or pressure: its first row"]);
+    assert_listed(
+        &listed,
+        &["*FRICTION by more than slip rate or pressure: its first row"],
+    );
     let (_, listed, _) = interaction("*FRICTION\n0.2, 1e7\n", ROW);
-    assert_listed(&listed, &["*FRICTION with one row: the numbers after the coefficient"]);
+    assert_listed(
+        &listed,
+        &["*FRICTION with one row: the numbers after the coefficient"],
+    );
 }
 
 #[test]
@@ -96,7 +112,10 @@ fn friction_without_a_counterpart_is_listed() {
     assert_eq!(model.pairs[0].friction.coefficient().at_rest(), 0.0);
     let idle = "*SURFACE INTERACTION, NAME=Idle\n*FRICTION\n0.2\n";
     let (_, listed, _) = converted(&super::model("", &format!("{idle}{STEP}")));
-    assert_listed(&listed, &["*FRICTION of `Idle`, which no contact refers to"]);
+    assert_listed(
+        &listed,
+        &["*FRICTION of `Idle`, which no contact refers to"],
+    );
 }
 
 #[test]
@@ -115,7 +134,8 @@ Pad-1.Bottom, Base-1.Top\n";
 
 #[test]
 fn parameters_of_pairs_that_change_their_meaning_are_listed() {
-    let pair = "*CONTACT PAIR, SMALL SLIDING, ADJUST=0.0, EXTENSION ZONE=0.1\nPad-1.Bottom, Base-1.Top\n";
+    let pair =
+        "*CONTACT PAIR, SMALL SLIDING, ADJUST=0.0, EXTENSION ZONE=0.1\nPad-1.Bottom, Base-1.Top\n";
     let (text, listed, _) = converted(&model("", &format!("{pair}{STEP}")));
     let said = [
         "*CONTACT PAIR: parameter EXTENSION ZONE",
@@ -125,7 +145,10 @@ fn parameters_of_pairs_that_change_their_meaning_are_listed() {
     assert!(text.contains("initial = { close = 0.0 }"), "{text}");
     let pair = "*CONTACT PAIR, ADJUST=Pad-1.Low\nPad-1.Bottom, Base-1.Top\n";
     let (_, listed, _) = converted(&model("", &format!("{pair}{STEP}")));
-    assert_listed(&listed, &["*CONTACT PAIR, ADJUST=Pad-1.Low: all of the surfaces"]);
+    assert_listed(
+        &listed,
+        &["*CONTACT PAIR, ADJUST=Pad-1.Low: all of the surfaces"],
+    );
 }
 
 #[test]
@@ -157,19 +180,42 @@ Pad-1.Top, Base-1.Top\nPad-1.Bottom,\n, Base-1.Bottom\n";
     }
     let contact = contact.replace(", ALL EXTERIOR\n", "\nPad-1.Bottom, Base-1.Top\n");
     let (_, listed, _) = converted(&model("", &format!("{contact}{STEP}")));
-    assert!(listed.iter().all(|line| line.contains("*CONTACT EXCLUSIONS")));
+    assert!(
+        listed
+            .iter()
+            .all(|line| line.contains("*CONTACT EXCLUSIONS"))
+    );
     assert_eq!(listed.len(), 4, "{listed:?}");
 }
 
 #[test]
 fn surfaces_that_cannot_touch_say_why() {
-    let of_nodes = "*SURFACE, TYPE=NODE, NAME=Corner\nPad-1.1,\n*CONTACT PAIR\nCorner, Base-1.Top\n";
+    let of_nodes =
+        "*SURFACE, TYPE=NODE, NAME=Corner\nPad-1.1,\n*CONTACT PAIR\nCorner, Base-1.Top\n";
     let (_, listed, _) = converted(&model("", &format!("{of_nodes}{STEP}")));
     let said = "contact of `Corner` and `Base-1.Top`: the nodes of `Corner` make up no facet";
     assert_listed(&listed, &[said]);
     let unknown = "*CONTACT PAIR\nPad-1.Bottom, Base-1.Roof\n";
     let (_, listed, _) = converted(&model("", &format!("{unknown}{STEP}")));
-    assert_listed(&listed, &["contact of `Pad-1.Bottom` and `Base-1.Roof`: there is no *SURFACE"]);
+    assert_listed(
+        &listed,
+        &["contact of `Pad-1.Bottom` and `Base-1.Roof`: there is no *SURFACE"],
+    );
+}
+
+#[test]
+fn sets_of_instances_that_are_no_bodies_are_not_those_of_bodies() {
+    let tool = "*PART, NAME=Tool\n*NODE\n1, 0., 0., 0.\n2, 1., 0., 0.\n3, 1., 1., 0.
+*ELEMENT, TYPE=R3D3, ELSET=All\n1, 1, 2, 3\n*END PART\n";
+    let instance = "*INSTANCE, NAME=Tool-1, PART=Tool\n*END INSTANCE\n";
+    let step = with("*CLOAD\nTool-1.All, 1, 1.\n*DLOAD\nTool-1.All, P1, 1.\n");
+    let (_, listed, _) = converted(&(tool.to_owned() + &model(instance, &step)));
+    let said = [
+        "instance `Tool-1` of rigid elements without *RIGID BODY",
+        "*CLOAD `Tool-1.All, 1, 1.`: `Tool-1.All` belongs to no body",
+        "*DLOAD `Tool-1.All, P1, 1.`, which is no outer face of a body",
+    ];
+    assert_listed(&listed, &said);
 }
 
 #[test]

@@ -15,7 +15,12 @@ fn concentrated_forces_are_at_each_node_of_a_set() {
     assert_listed(&listed, &[]);
     let forces = &deck.model.steps[0].forces;
     assert_eq!(forces.len(), 2, "{text}");
-    let of = |nodes: usize| forces.iter().find(|force| force.nodes.len() == nodes).unwrap();
+    let of = |nodes: usize| {
+        forces
+            .iter()
+            .find(|force| force.nodes.len() == nodes)
+            .unwrap()
+    };
     assert_eq!(each(of(4)), Vec3::new(0.5, 0.0, -2.0));
     assert_eq!(each(of(1)), Vec3::new(4.0, 0.0, 0.0));
 }
@@ -27,9 +32,8 @@ fn forces_of_one_node_in_a_step_add_and_later_steps_modify_them() {
     let third = "*STEP\n*STATIC\n*CLOAD, OP=NEW\nBase-1.High, 2, 7.\n*END STEP\n";
     let (_, listed, deck) = converted(&model("", &(first + second + third)));
     assert_listed(&listed, &[]);
-    let forces = |step: usize| -> Vec<Vec3> {
-        deck.model.steps[step].forces.iter().map(each).collect()
-    };
+    let forces =
+        |step: usize| -> Vec<Vec3> { deck.model.steps[step].forces.iter().map(each).collect() };
     assert_eq!(forces(0), [Vec3::new(1.0, 0.0, -3.0)]);
     // What is not stated again stays, and ends by OP=NEW.
     assert_eq!(forces(1), [Vec3::new(1.0, 0.0, -5.0)]);
@@ -82,7 +86,9 @@ fn pressures_of_elements_are_on_their_faces() {
             let [face] = load.faces[..] else {
                 panic!("{:?}", load.faces);
             };
-            let nodes = mesh.face_nodes(face).map(|node| mesh.positions[node.index()]);
+            let nodes = mesh
+                .face_nodes(face)
+                .map(|node| mesh.positions[node.index()]);
             let x = nodes.iter().map(|x| x.x).sum::<f64>() / 4.0;
             match load.kind.numbers() {
                 Some(LoadKind::Pressure(value)) => (load.body.0, x, value),
@@ -119,12 +125,17 @@ fn gravity_of_some_bodies_is_told_to_be_on_all() {
     let gravity = deck.model.steps[0].gravity.as_ref().unwrap();
     assert_eq!(gravity.acceleration, Vec3::new(0.0, 0.0, -2.0));
     let (_, listed, _) = converted(&model("", &of("Pad-1.All, GRAV, 2., 0., 0., -1.\n")));
-    assert_listed(&listed, &["*DLOAD, GRAV of `Pad-1.All`: gravity is on all bodies"]);
+    assert_listed(
+        &listed,
+        &["*DLOAD, GRAV of `Pad-1.All`: gravity is on all bodies"],
+    );
 }
 
 #[test]
 fn tractions_of_fixed_and_of_turning_direction() {
-    let step = with("*DSLOAD, FOLLOWER=NO\nPad-1.Top, TRVEC, 2., 0., 0., 3.\n*DSLOAD\nBase-1.Top, TRVEC, 1., 1., 0., 0.\n");
+    let step = with(
+        "*DSLOAD, FOLLOWER=NO\nPad-1.Top, TRVEC, 2., 0., 0., 3.\n*DSLOAD\nBase-1.Top, TRVEC, 1., 1., 0., 0.\n",
+    );
     let (_, listed, deck) = converted(&model("", &step));
     assert_listed(&listed, &[]);
     let kinds: Vec<_> = deck.model.steps[0]
@@ -149,5 +160,8 @@ fn forces_in_turned_axes_are_listed() {
     let turned = "*TRANSFORM, NSET=Pad-1.High\n0., 1., 0., -1., 0., 0.\n";
     let step = with("*CLOAD\nPad-1.High, 1, 1.\n");
     let (_, listed, _) = converted(&model(turned, &step));
-    assert_listed(&listed, &["*CLOAD `Pad-1.High, 1, 1.` in the axes of a *TRANSFORM"]);
+    assert_listed(
+        &listed,
+        &["*CLOAD `Pad-1.High, 1, 1.` in the axes of a *TRANSFORM"],
+    );
 }

@@ -45,11 +45,20 @@ fn instances_are_moved_and_then_turned() {
 #[test]
 fn rubber_and_metals() {
     for (card, expected) in [
-        ("*HYPERELASTIC, NEO HOOKE\n1., 0.02", "isochoric-neo-hookean"),
-        ("*HYPERELASTIC, MOONEY-RIVLIN\n1., 0.2, 0.02", "mooney-rivlin"),
+        (
+            "*HYPERELASTIC, NEO HOOKE\n1., 0.02",
+            "isochoric-neo-hookean",
+        ),
+        (
+            "*HYPERELASTIC, MOONEY-RIVLIN\n1., 0.2, 0.02",
+            "mooney-rivlin",
+        ),
         ("*HYPERELASTIC, YEOH\n1., 0.2, 0.1, 0.02", "yeoh"),
         ("*HYPERELASTIC, OGDEN, N=1\n1., 2., 0.02", "ogden"),
-        ("*ELASTIC\n100., 0.3\n*PLASTIC\n1., 0.\n2., 0.1", "elastic-plastic"),
+        (
+            "*ELASTIC\n100., 0.3\n*PLASTIC\n1., 0.\n2., 0.1",
+            "elastic-plastic",
+        ),
     ] {
         let text = model("", STEP).replace("*ELASTIC\n100., 0.\n", &format!("{card}\n"));
         let (text, listed, _) = converted(&text);
@@ -60,13 +69,19 @@ fn rubber_and_metals() {
     let text = model("", STEP).replace("*ELASTIC\n100., 0.", visco);
     let (_, listed, deck) = converted(&text);
     assert_listed(&listed, &[]);
-    assert!(matches!(deck.model.bodies[0].material, Material::Viscoelastic(_)));
+    assert!(matches!(
+        deck.model.bodies[0].material,
+        Material::Viscoelastic(_)
+    ));
 }
 
 #[test]
 fn options_of_heat_leave_a_material_as_it_is() {
     let more = "*EXPANSION\n1e-5,\n*CONDUCTIVITY\n50.,\n*SPECIFIC HEAT\n1.,\n*DAMPING, ALPHA=1.\n";
-    let text = model("", STEP).replace("*ELASTIC\n100., 0.\n", &format!("*ELASTIC\n100., 0.\n{more}"));
+    let text = model("", STEP).replace(
+        "*ELASTIC\n100., 0.\n",
+        &format!("*ELASTIC\n100., 0.\n{more}"),
+    );
     let (_, listed, deck) = converted(&text);
     let said = [
         "*EXPANSION: there are no temperatures",
@@ -81,14 +96,27 @@ fn options_of_heat_leave_a_material_as_it_is() {
 #[test]
 fn materials_without_a_counterpart_are_listed() {
     for (card, said) in [
-        ("*HYPERELASTIC, TEST DATA INPUT, OGDEN\n*UNIAXIAL TEST DATA\n1., 1.", "NEO HOOKE"),
-        ("*ELASTIC, TYPE=ORTHOTROPIC\n1., 1., 1., 1.", "TYPE=ISOTROPIC"),
+        (
+            "*HYPERELASTIC, TEST DATA INPUT, OGDEN\n*UNIAXIAL TEST DATA\n1., 1.",
+            "NEO HOOKE",
+        ),
+        (
+            "*ELASTIC, TYPE=ORTHOTROPIC\n1., 1., 1., 1.",
+            "TYPE=ISOTROPIC",
+        ),
         ("*USER MATERIAL, CONSTANTS=1\n1.", "*DENSITY, *ELASTIC"),
     ] {
         let text = model("", STEP).replace("*ELASTIC\n100., 0.\n", &format!("{card}\n"));
         let (_, made) = made(&text);
-        let found = made.listed.iter().find(|line| line.contains("*MATERIAL `foam`"));
-        assert!(found.is_some_and(|line| line.contains(said)), "{:?}", made.listed);
+        let found = made
+            .listed
+            .iter()
+            .find(|line| line.contains("*MATERIAL `foam`"));
+        assert!(
+            found.is_some_and(|line| line.contains(said)),
+            "{:?}",
+            made.listed
+        );
     }
 }
 
@@ -98,13 +126,22 @@ fn elements_that_are_no_solids_are_listed() {
     let cube = CUBE.replace("*NSET, NSET=Low", &format!("{shells}*NSET, NSET=Low"));
     let text = format!("{cube}*END ASSEMBLY\n{FOAM}{STEP}");
     let (_, listed, _) = converted(&text);
-    assert_listed(&listed, &["*ELEMENT, TYPE=S4: only solids are elements of a body"]);
+    assert_listed(
+        &listed,
+        &["*ELEMENT, TYPE=S4: only solids are elements of a body"],
+    );
 }
 
 #[test]
 fn models_of_a_plane_say_that_they_are() {
-    let (_, made) = made("*NODE\n1, 0., 0.\n2, 1., 0.\n3, 1., 1.\n4, 0., 1.\n*ELEMENT, TYPE=CPE4\n1, 1, 2, 3, 4\n");
-    assert!(made.listed[0].contains("no solid elements"), "{:?}", made.listed);
+    let (_, made) = made(
+        "*NODE\n1, 0., 0.\n2, 1., 0.\n3, 1., 1.\n4, 0., 1.\n*ELEMENT, TYPE=CPE4\n1, 1, 2, 3, 4\n",
+    );
+    assert!(
+        made.listed[0].contains("no solid elements"),
+        "{:?}",
+        made.listed
+    );
 }
 
 #[test]
@@ -113,8 +150,13 @@ fn parameters_are_refused_with_their_line() {
     let path = folder.path().join("model.inp");
     let text = format!("*PARAMETER\nlength = 2.\n{}", model("", STEP));
     std::fs::write(&path, text).unwrap();
-    let fault = striae_deck::convert(&path, "model.inp").unwrap_err().to_string();
-    assert!(fault.contains("line 1: expected numbers in the places of parameters"), "{fault}");
+    let fault = striae_deck::convert(&path, "model.inp")
+        .unwrap_err()
+        .to_string();
+    assert!(
+        fault.contains("line 1: expected numbers in the places of parameters"),
+        "{fault}"
+    );
     assert!(fault.contains("write the value for each name"), "{fault}");
 }
 
@@ -122,9 +164,16 @@ fn parameters_are_refused_with_their_line() {
 fn included_files_are_named_with_their_lines() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("model.inp");
-    std::fs::write(folder.path().join("steps.inp"), STEP.replace("*STATIC", "*HEAT TRANSFER")).unwrap();
+    std::fs::write(
+        folder.path().join("steps.inp"),
+        STEP.replace("*STATIC", "*HEAT TRANSFER"),
+    )
+    .unwrap();
     std::fs::write(&path, model("", "*INCLUDE, INPUT=steps.inp\n")).unwrap();
     let made = striae_deck::convert(&path, "model.inp").unwrap();
-    let found = made.listed.iter().any(|line| line.starts_with("steps.inp line 1: *STEP `Press`"));
+    let found = made
+        .listed
+        .iter()
+        .any(|line| line.starts_with("steps.inp line 1: *STEP `Press`"));
     assert!(found, "{:?}", made.listed);
 }

@@ -4,7 +4,7 @@ use super::{assert_listed, converted, model, with};
 
 #[test]
 fn fields_and_their_frequency() {
-    let output = "*OUTPUT, FIELD, FREQUENCY=5\n*NODE OUTPUT\nU, RF\n*ELEMENT OUTPUT\nS, LE\n*CONTACT OUTPUT\nCSTRESS, CDISP
+    let output = "*OUTPUT, FIELD, FREQUENCY=5\n*NODE OUTPUT\nU\n*ELEMENT OUTPUT\nS, LE\n*CONTACT OUTPUT\nCSTRESS, CDISP
 *RESTART, WRITE, FREQUENCY=3\n";
     let (text, listed, _) = converted(&model("", &with(output)));
     assert_listed(&listed, &[]);
@@ -23,7 +23,10 @@ fn usual_fields_at_intervals_of_time() {
     let (text, listed, _) = converted(&model("", &with(output)));
     assert_listed(&listed, &[]);
     // The step takes 2.
-    assert!(text.ends_with("[output]\nfields_interval = 0.5\n"), "{text}");
+    assert!(
+        text.ends_with("[output]\nfields_interval = 0.5\n"),
+        "{text}"
+    );
 }
 
 #[test]
@@ -41,14 +44,17 @@ fn histories_of_displacements_are_probes() {
 
 #[test]
 fn files_and_prints_of_calculix() {
-    let output = "*NODE FILE, FREQUENCY=2\nU\n*EL FILE\nS, NOE\n*CONTACT FILE\nCDIS, CSTR\n*NODE PRINT, NSET=Pad-1.High\nRF\n*EL PRINT, ELSET=Pad-1.All\nS\n";
+    let output = "*NODE FILE, FREQUENCY=2\nU\n*EL FILE\nS, NOE\n*CONTACT FILE\nCDIS, CSTR\n*NODE PRINT, NSET=Pad-1.High\nRF\n*NODE PRINT\nU, NT\n*EL PRINT, ELSET=Pad-1.All\nS\n";
     let (text, listed, _) = converted(&model("", &with(output)));
     let said = [
-        "*EL FILE: NOE",
+        "*EL FILE: no field for NOE",
         "*CONTACT FILE: all steps have the most frequent output",
         "*EL PRINT over time: name points in `probes`",
     ];
     assert_listed(&listed, &said);
-    assert!(text.contains("contact_fields = [\"gap\", \"slip\", \"traction\"]"), "{text}");
+    assert!(
+        text.contains("contact_fields = [\"gap\", \"slip\", \"traction\"]"),
+        "{text}"
+    );
     assert!(!text.contains("fields_every"), "{text}");
 }

@@ -30,7 +30,8 @@ fn dragged(degrees: f64, friction: &str) -> Vec3 {
         2.0 * cos,
         2.0 * sin
     );
-    let (problem, state, listed) = run(&format!("{parts}{cube}{floor}*END ASSEMBLY\n{FOAM}{steps}"));
+    let (problem, state, listed) =
+        run(&format!("{parts}{cube}{floor}*END ASSEMBLY\n{FOAM}{steps}"));
     assert_eq!(listed, Vec::<String>::new());
     pairs(&problem, &state)[0].sides[Side::A].force
 }
@@ -48,7 +49,10 @@ fn anisotropic_friction_is_that_of_the_ellipse() {
         let exact = [along * along * cos / size, across * across * sin / size];
         let ratio = [-force.x / force.z, -force.y / force.z];
         for (found, exact) in ratio.iter().zip(exact) {
-            assert!((found - exact).abs() < 1e-4, "{degrees}: {ratio:?} {exact:?}");
+            assert!(
+                (found - exact).abs() < 1e-4,
+                "{degrees}: {ratio:?} {exact:?}"
+            );
         }
     }
     let isotropic = dragged(30.0, "*FRICTION\n0.3\n");

@@ -38,7 +38,10 @@ fn extruded_arcs_are_facets_that_face_the_bodies() {
     // A cylinder of radius 2 about z above the pad, whose top is at y = 1, seen from below.
     let surface = "*SURFACE, TYPE=CYLINDER, NAME=Face\nSTART, -2., 3.\nCIRCL, 0., 1., 0., 3.\nCIRCL, 2., 3., 0., 3.\n";
     let (listed, model) = analytical(surface, "");
-    assert_listed(&listed, &["analytical surface `Wall-1.Face` is made of 432 facets"]);
+    assert_listed(
+        &listed,
+        &["analytical surface `Wall-1.Face` is made of 432 facets"],
+    );
     let facets = facets(&model);
     // Bodies reach from z = 0 to 2, the surface half of that beyond both ends.
     let area: f64 = facets.iter().map(|(_, area, _)| area).sum();
@@ -56,28 +59,50 @@ fn revolved_arcs_close_around_the_axis() {
     let surface = "*SURFACE, TYPE=REVOLUTION, NAME=Face\nSTART, 0., -1.\nCIRCL, 1., 0., 0., 0.\nCIRCL, 0., 1., 0., 0.\n";
     let place = "0.5, 0.5, 3.5\n0.5, 0.5, 3.5, 1.5, 0.5, 3.5, 90.\n";
     let (listed, model) = analytical(surface, place);
-    assert_listed(&listed, &["analytical surface `Wall-1.Face` is made of 2592 facets"]);
+    assert_listed(
+        &listed,
+        &["analytical surface `Wall-1.Face` is made of 2592 facets"],
+    );
     let facets = facets(&model);
     let centre = Vec3::new(0.5, 0.5, 3.5);
     // The divergence theorem: a closed surface encloses its volume.
-    let volumes = facets.iter().map(|(x, area, n)| area * (x - centre).dot(n) / 3.0);
+    let volumes = facets
+        .iter()
+        .map(|(x, area, n)| area * (x - centre).dot(n) / 3.0);
     let volume: f64 = volumes.sum();
     let exact = TAU * 2.0 / 3.0;
-    assert!((volume / exact - 1.0).abs() < 4e-3 && volume < exact, "{volume}");
+    assert!(
+        (volume / exact - 1.0).abs() < 4e-3 && volume < exact,
+        "{volume}"
+    );
     for (x, _, normal) in facets {
         assert!(normal.dot(&(x - centre)) > 0.99 * (x - centre).norm());
     }
 }
 
 #[test]
+fn fillets_are_listed() {
+    let surface =
+        "*SURFACE, TYPE=CYLINDER, NAME=Face, FILLET RADIUS=0.1\nSTART, -2., 3.\nLINE, 2., 3.\n";
+    let (listed, _) = analytical(surface, "");
+    assert_listed(&listed, &["*SURFACE: parameter FILLET RADIUS"]);
+}
+
+#[test]
 fn analytical_surfaces_without_a_counterpart_are_listed() {
     for (surface, said) in [
-        ("*SURFACE, TYPE=SEGMENTS, NAME=Face\nSTART, 0., 0.\nLINE, 1., 0.\n", "is for models of a plane"),
+        (
+            "*SURFACE, TYPE=SEGMENTS, NAME=Face\nSTART, 0., 0.\nLINE, 1., 0.\n",
+            "is for models of a plane",
+        ),
         (
             "*SURFACE, TYPE=CYLINDER, NAME=Face\nSTART, 0., 0.\nPARAB, 1., 0., 0.5, 1.\n",
             "a profile with PARAB; mesh it with R3D4",
         ),
-        ("*SURFACE, TYPE=CYLINDER, NAME=Face\nSTART, 0., 0.\n", "a profile without a line"),
+        (
+            "*SURFACE, TYPE=CYLINDER, NAME=Face\nSTART, 0., 0.\n",
+            "a profile without a line",
+        ),
     ] {
         let (listed, model) = analytical(surface, "");
         assert!(model.rigid_surfaces.is_empty());
@@ -119,10 +144,16 @@ fn constraints_without_a_counterpart_are_listed() {
 
 #[test]
 fn rotations_of_calculix_are_those_of_a_second_node() {
-    let text = model("", "").replace("*NODE\n1, 0.5, 0.5, 3.\n", "*NODE\n1, 0.5, 0.5, 3.\n2, 0.5, 0.5, 3.\n");
+    let text = model("", "").replace(
+        "*NODE\n1, 0.5, 0.5, 3.\n",
+        "*NODE\n1, 0.5, 0.5, 3.\n2, 0.5, 0.5, 3.\n",
+    );
     let rigid = "*NSET, NSET=ROT\n2,\n*RIGID BODY, NSET=Pad-1.High, REF NODE=RP, ROT NODE=ROT\n";
     let text = text.replace("*END ASSEMBLY\n", &format!("{rigid}*END ASSEMBLY\n"));
-    let step = STEP.replace("Pad-1.High, 3, 3, -0.02\n", "RP, 1, 3\nROT, 1, 2\nROT, 3, 3, 0.5\n");
+    let step = STEP.replace(
+        "Pad-1.High, 3, 3, -0.02\n",
+        "RP, 1, 3\nROT, 1, 2\nROT, 3, 3, 0.5\n",
+    );
     let (_, listed, deck) = converted(&(text + &step));
     assert_listed(&listed, &[]);
     let motion = &deck.model.steps[0].rigid_motions[0];
@@ -132,7 +163,10 @@ fn rotations_of_calculix_are_those_of_a_second_node() {
 #[test]
 fn courses_of_a_rigid_body_that_differ_are_listed() {
     let rigid = "*RIGID BODY, REF NODE=RP, TIE NSET=Pad-1.High\n";
-    let step = STEP.replace("Pad-1.High, 3, 3, -0.02\n", "RP, 4, 6\nRP, 1, 1, 0.1\n*BOUNDARY, AMPLITUDE=Way\nRP, 2, 2, 0.1\n");
+    let step = STEP.replace(
+        "Pad-1.High, 3, 3, -0.02\n",
+        "RP, 4, 6\nRP, 1, 1, 0.1\n*BOUNDARY, AMPLITUDE=Way\nRP, 2, 2, 0.1\n",
+    );
     let way = "*AMPLITUDE, NAME=Way\n0., 0., 1., 3., 2., 1.\n";
     let (_, listed, _) = converted(&model(rigid, &format!("{way}{step}")));
     assert_listed(&listed, &["a rigid body has one course in a step"]);

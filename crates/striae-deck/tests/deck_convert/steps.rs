@@ -6,11 +6,17 @@ use striae_solve::model::{Mover, Procedure};
 
 #[test]
 fn the_four_numbers_of_a_step() {
-    let (_, listed, deck) = converted(&model("", &STEP.replace("*STATIC", "*STATIC, DIRECT, SOLVER=PARDISO")));
+    let (_, listed, deck) = converted(&model(
+        "",
+        &STEP.replace("*STATIC", "*STATIC, DIRECT, SOLVER=PARDISO"),
+    ));
     assert_listed(&listed, &[]);
     let sizes = deck.model.steps[0].increments;
     assert_eq!((sizes.initial, sizes.largest), (0.05, 0.05));
-    let (_, listed, _) = converted(&model("", &STEP.replace("*STATIC", "*STATIC, STABILIZE=2e-4, RIKS")));
+    let (_, listed, _) = converted(&model(
+        "",
+        &STEP.replace("*STATIC", "*STATIC, STABILIZE=2e-4, RIKS"),
+    ));
     assert_listed(&listed, &["*STATIC: parameter STABILIZE, RIKS"]);
 }
 
@@ -29,7 +35,10 @@ fn implicit_dynamics_has_the_spectral_radius_of_its_alpha() {
     let Procedure::Dynamic { spectral_radius } = deck.model.steps[0].procedure else {
         panic!("{:?}", deck.model.steps[0].procedure);
     };
-    assert!((spectral_radius - 0.8 / 1.2).abs() < 1e-15, "{spectral_radius}");
+    assert!(
+        (spectral_radius - 0.8 / 1.2).abs() < 1e-15,
+        "{spectral_radius}"
+    );
 }
 
 #[test]
@@ -50,7 +59,11 @@ fn steps_of_other_kinds_are_listed_and_keep_what_stands_before_all_steps() {
     let explicit = STEP.replace("*STATIC", "*DYNAMIC, EXPLICIT");
     let (_, made) = made(&model("", &explicit));
     let said = "an explicit step; take *DYNAMIC without EXPLICIT";
-    assert!(made.listed.iter().any(|line| line.contains(said)), "{:?}", made.listed);
+    assert!(
+        made.listed.iter().any(|line| line.contains(said)),
+        "{:?}",
+        made.listed
+    );
 }
 
 #[test]
@@ -64,14 +77,17 @@ fn symmetries_hold_what_their_names_say() {
         let (_, listed, deck) = converted(&model("", &step));
         assert_listed(&listed, &[]);
         let stated = &deck.model.steps[0].displacements;
-        let high = stated.iter().find(|of| of.set.contains("High") && of.body.0 == 0);
+        let high = stated
+            .iter()
+            .find(|of| of.set.contains("High") && of.body.0 == 0);
         assert_eq!(high.unwrap().numbers(), held, "{word}");
     }
 }
 
 #[test]
 fn conditions_without_a_counterpart_are_listed() {
-    let more = "*BOUNDARY, TYPE=ACCELERATION\nPad-1.High, 1, 1, 2.\n*BOUNDARY, FIXED\nPad-1.High, 1, 1
+    let more =
+        "*BOUNDARY, TYPE=ACCELERATION\nPad-1.High, 1, 1, 2.\n*BOUNDARY, FIXED\nPad-1.High, 1, 1
 *BOUNDARY, USER\nPad-1.High, 11, 11, 2.\n*TEMPERATURE\nPad-1.High, 20.\n";
     let (_, listed, _) = converted(&model("", &with(more)));
     let said = [
@@ -87,9 +103,13 @@ fn conditions_without_a_counterpart_are_listed() {
 
 #[test]
 fn some_nodes_in_turned_axes_are_listed() {
-    let turned = "*NSET, NSET=Pair\nPad-1.5, Pad-1.6\n*TRANSFORM, NSET=Pair\n0., 1., 0., -1., 0., 0.\n";
+    let turned =
+        "*NSET, NSET=Pair\nPad-1.5, Pad-1.6\n*TRANSFORM, NSET=Pair\n0., 1., 0., -1., 0., 0.\n";
     let (_, listed, _) = converted(&model(turned, STEP));
-    let said = ["*TRANSFORM", "some nodes of `Pad-1.High` are in `Pair` of *TRANSFORM"];
+    let said = [
+        "*TRANSFORM",
+        "some nodes of `Pad-1.High` are in `Pair` of *TRANSFORM",
+    ];
     assert_listed(&listed, &said);
 }
 
@@ -106,7 +126,10 @@ fn initial_velocities_of_whole_bodies() {
     assert!(matches!(velocity.body, Mover::Deformable(body) if body.0 == 1));
     assert_eq!(velocity.velocity, Vec3::new(2.0, 0.0, -1.0));
     let (_, listed, _) = converted(&model(nodes, &format!("{before}{STEP}")));
-    assert_listed(&listed, &["*INITIAL CONDITIONS, TYPE=VELOCITY before a static step"]);
+    assert_listed(
+        &listed,
+        &["*INITIAL CONDITIONS, TYPE=VELOCITY before a static step"],
+    );
     let some = before.replace("Pad-1.All", "Pad-1.Low");
     let (_, listed, _) = converted(&model("", &format!("{some}{step}")));
     let said = "*INITIAL CONDITIONS `Pad-1.Low, 1, 2.`: velocities are those of whole bodies";

@@ -104,7 +104,8 @@ impl Part {
         for row in &keyword.rows {
             for word in row.words.iter().filter(|word| !word.is_empty()) {
                 let known = self.surfaces.get(&word.to_uppercase());
-                let known = known.ok_or_else(|| row.fault("a surface of elements defined before"))?;
+                let known =
+                    known.ok_or_else(|| row.fault("a surface of elements defined before"))?;
                 let is_in = |face: &FileFace| known.1.iter().any(|(_, other)| other == face);
                 match (&mut found, how.to_uppercase().as_str()) {
                     (None, "UNION" | "INTERSECTION" | "DIFFERENCE") => {

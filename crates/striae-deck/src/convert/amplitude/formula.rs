@@ -45,8 +45,10 @@ impl Formula {
     pub(super) fn read(kind: &str, all: &[f64]) -> Result<Self, Fault> {
         match (kind, all) {
             ("PERIODIC", [count, frequency, begin, mean, pairs @ ..]) if !pairs.is_empty() => {
-                let mut pairs: Vec<[f64; 2]> =
-                    pairs.chunks(2).map(|of| [of[0], of.get(1).copied().unwrap_or(0.0)]).collect();
+                let mut pairs: Vec<[f64; 2]> = pairs
+                    .chunks(2)
+                    .map(|of| [of[0], of.get(1).copied().unwrap_or(0.0)])
+                    .collect();
                 if *count > pairs.len() as f64 {
                     return Err(Fault::Numbers);
                 }
