@@ -49,6 +49,8 @@ fn files_and_prints_of_calculix() {
     let said = [
         "*EL FILE: no field for NOE",
         "*CONTACT FILE: all steps have the most frequent output",
+        "*NODE PRINT over time: no NT",
+        "*NODE PRINT of all nodes: name a set",
         "*EL PRINT over time: name points in `probes`",
     ];
     assert_listed(&listed, &said);
