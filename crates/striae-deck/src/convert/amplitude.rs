@@ -28,7 +28,7 @@ pub(super) struct Approach {
     pub(super) curve: Option<String>,
 }
 
-/// What a curve is over.
+/// Abscissa of a curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Over {
     /// The step, if that is possible.

@@ -1,58 +1,10 @@
 //! Boundary conditions of a step.
 
 use super::amplitude::{Over, Period};
-use super::bodies::Body;
-use super::load::{Family, Load, Loaded, StatedLoad};
+use super::stated::{History, Prescribed, Stated, Target};
 use super::{Model, has, numbers};
-use crate::write::value::{list, number, text};
-use std::collections::{BTreeMap, BTreeSet};
+use crate::write::value::{list, number};
 use striae_meshfile::{Keyword, Row};
-
-/// Target of a condition.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Target {
-    /// A body by place, and a node set.
-    Nodes(usize, String),
-    /// A rigid body by place.
-    Rigid(usize),
-}
-
-/// A component of what a condition is on.
-pub(super) type Component = (Target, usize);
-
-/// Present values of all that is prescribed or applied.
-#[derive(Default)]
-pub(super) struct History {
-    pub(super) prescribed: BTreeMap<Component, f64>,
-    pub(super) loads: BTreeMap<Loaded, (Family, [f64; 3])>,
-}
-
-/// A component that a step prescribes.
-#[derive(Clone)]
-pub(super) struct Prescribed {
-    pub(super) target: f64,
-    /// Value at the end of the step.
-    pub(super) reached: f64,
-    pub(super) curve: Option<String>,
-    /// Line that states it.
-    pub(super) line: usize,
-}
-
-/// Conditions stated by the keywords of a step.
-#[derive(Default)]
-pub(super) struct Stated {
-    pub(super) prescribed: BTreeMap<Component, Prescribed>,
-    /// Axes of node sets that have their own, by body.
-    axes: BTreeMap<(usize, String), String>,
-    /// `true` if conditions that are not stated again end.
-    pub(super) is_new: bool,
-    pub(super) raw_loads: BTreeMap<Loaded, StatedLoad>,
-    /// Kinds of loads of which those that are not stated again end.
-    pub(super) new_loads: BTreeSet<Family>,
-    pub(super) loads: BTreeMap<Loaded, Load>,
-    /// Velocities at the start, of nodes or of a rigid body.
-    pub(super) velocities: BTreeMap<Target, [f64; 6]>,
-}
 
 /// Components that a word such as `PINNED` holds.
 fn named(word: &str) -> Option<Vec<usize>> {
@@ -220,44 +172,5 @@ fn transform(keyword: &Keyword<'_>) -> Option<String> {
             ))
         }
         _ => None,
-    }
-}
-
-/// `, curve = ...`, nothing for the ramp.
-pub(super) fn curve_key(curve: &Option<String>) -> String {
-    let curve = curve.as_ref();
-    curve.map_or(String::new(), |curve| format!(", curve = {}", text(curve)))
-}
-
-impl Stated {
-    /// Conditions of nodes: displacements of each set along each curve.
-    pub(super) fn displacements(&self, bodies: &[Body]) -> Vec<String> {
-        let mut groups: BTreeMap<(usize, &str, &Option<String>), String> = BTreeMap::new();
-        for ((target, component), prescribed) in &self.prescribed {
-            let Target::Nodes(body, set) = target else {
-                continue;
-            };
-            let keys = groups.entry((*body, set, &prescribed.curve)).or_default();
-            let value = number(prescribed.target);
-            *keys += &format!(", {} = {value}", ["x", "y", "z"][*component]);
-        }
-        let entry = |((body, set, curve), keys): ((usize, &str, &Option<String>), String)| {
-            let axes = self.axes.get(&(body, set.to_owned()));
-            let axes = axes.map(|axes| format!(", axes = {axes}"));
-            let (body, set) = (text(&bodies[body].name), text(set));
-            format!(
-                "{{ body = {body}, nodes = {set}{}{keys}{} }}",
-                axes.unwrap_or_default(),
-                curve_key(curve)
-            )
-        };
-        groups.into_iter().map(entry).collect()
-    }
-
-    /// Prescribed components that are not stated again.
-    pub(super) fn ended(&self, history: &History) -> BTreeSet<Component> {
-        let before = history.prescribed.keys();
-        let ended = before.filter(|key| self.is_new && !self.prescribed.contains_key(*key));
-        ended.cloned().collect()
     }
 }

@@ -46,7 +46,7 @@ pub(super) struct FrictionLaw {
 }
 
 impl<'a> Model<'a> {
-    /// What an interaction states; nothing where there is none of this name, which is listed.
+    /// The interaction of a name; an empty one where there is none, which is listed.
     pub(super) fn interaction(&mut self, name: Option<&str>, line: usize) -> Interaction {
         let Some(name) = name.filter(|name| !name.is_empty()) else {
             return Interaction::default();

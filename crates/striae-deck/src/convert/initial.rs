@@ -1,8 +1,8 @@
 //! Initial conditions: velocities of whole bodies.
 
 use super::bodies::Body;
-use super::condition::{Stated, Target};
 use super::rigid::Rigid;
+use super::stated::{Stated, Target};
 use super::{Model, numbers};
 use crate::write::value::{list, number, text, vector};
 use striae_meshfile::Keyword;

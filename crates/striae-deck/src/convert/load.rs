@@ -1,59 +1,17 @@
 //! Loads of a step: forces, pressures, tractions and gravity.
 //!
-//! What a step states of a load is collected first, as components of a force may come from several
+//! Statements of a load are collected first, as components of a force may come from several
 //! rows. In the deck a load has one vector and one curve, over the time of the run where there is
 //! an amplitude.
 
 use super::amplitude::{Approach, Over, Period};
 use super::bodies::Body;
-use super::condition::{History, Stated, curve_key};
 use super::faces::side;
+use super::stated::{Family, History, Load, Loaded, Stated, StatedLoad, curve_key};
 use super::{Model, has, numbers};
 use crate::write::value::{list, number, text};
 use std::collections::BTreeSet;
 use striae_meshfile::{Keyword, Row};
-
-/// What a load is on.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Loaded {
-    /// A body by place, and a node set.
-    Nodes(usize, String),
-    /// Pressure on a body by place, and a facet set.
-    Pressed(usize, String),
-    /// Traction of a fixed direction, likewise.
-    Dead(usize, String),
-    /// Traction that turns with the facets, likewise.
-    Follower(usize, String),
-    /// Force on a rigid body by place.
-    Force(usize),
-    /// Torque on a rigid body by place.
-    Torque(usize),
-    Gravity,
-}
-
-/// The keyword of a load.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Family {
-    Concentrated,
-    Distributed,
-    Surface,
-}
-
-/// What the rows of a step say of a load.
-pub(super) struct StatedLoad {
-    family: Family,
-    components: [Option<f64>; 3],
-    amplitude: Option<String>,
-    period: Period,
-    line: usize,
-}
-
-/// A load in a step.
-pub(super) struct Load {
-    pub(super) target: [f64; 3],
-    pub(super) curve: Option<String>,
-    pub(super) line: usize,
-}
 
 impl<'a> Model<'a> {
     /// Reads `*CLOAD`.

@@ -23,6 +23,7 @@ mod profile;
 mod remedy;
 mod rigid;
 mod slip_direction;
+mod stated;
 mod step;
 
 use crate::write::value::text;

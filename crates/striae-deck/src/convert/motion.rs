@@ -2,8 +2,7 @@
 
 use super::Model;
 use super::amplitude::Curve;
-use super::condition::{Component, Prescribed, Stated, Target, curve_key};
-use super::load::Loaded;
+use super::stated::{Component, Loaded, Prescribed, Stated, Target, curve_key};
 use crate::write::value::{list, number, text};
 use std::collections::BTreeSet;
 

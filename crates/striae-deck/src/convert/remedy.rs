@@ -1,6 +1,6 @@
 //! Advice for keywords of which nothing is made.
 
-/// What to do instead of a keyword; empty where there is nothing to do.
+/// Advice for a keyword; empty where there is nothing to do.
 pub(super) fn remedy(keyword: &str) -> &'static str {
     match keyword {
         "EQUATION" => {

@@ -1,7 +1,7 @@
 //! Steps.
 
 use super::amplitude::Period;
-use super::condition::{Component, History, Stated, Target};
+use super::stated::{Component, History, Stated, Target};
 use super::{Model, has, numbers};
 use crate::write::value::{list, number, text};
 use std::collections::{BTreeMap, BTreeSet};

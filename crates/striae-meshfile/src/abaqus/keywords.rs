@@ -154,7 +154,7 @@ impl<'a> Row<'a> {
         }
     }
 
-    /// It with so many words at most.
+    /// The row with so many words at most.
     pub fn shortened(&self, words: usize) -> Self {
         let mut row = self.clone();
         row.words.truncate(words);

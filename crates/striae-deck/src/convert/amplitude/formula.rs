@@ -74,7 +74,7 @@ impl Formula {
         }
     }
 
-    /// It as a function of the time of the run, where its own time begins at `offset`.
+    /// Function of the time of the run, where the time of the formula begins at `offset`.
     pub(super) fn text(&self, offset: f64) -> String {
         let x = match offset + self.begin {
             0.0 => "t".to_owned(),
