@@ -2,18 +2,20 @@
 //!
 //! In a part the profile of `TYPE=CYLINDER` is in the plane of x and y and its generator is z; that
 //! of `TYPE=REVOLUTION` is in the plane of the radius x and the height y, and turns about y. Arcs
-//! are divided every five degrees. Their free side is that of the nearest element of a body. Source:
+//! are divided every five degrees. Their free side is that of the bodies nearby. Source:
 //! Abaqus keywords reference guide, `*SURFACE`.
 
 use super::rigid::Shape;
 use super::{Model, has, numbers};
 use std::collections::HashMap;
 use std::f64::consts::TAU;
-use striae_mesh::Vec3;
+use striae_mesh::{Mesh, NodeId, Vec3};
 use striae_meshfile::Keyword;
 
 /// Pieces of a turn.
 const PIECES: usize = 72;
+/// Share of the largest coordinate within which facets are about as near as the nearest one.
+const NEAR: f64 = 0.02;
 /// Facets along a generator.
 const ALONG: usize = 12;
 
@@ -49,9 +51,15 @@ impl Model<'_> {
                 let normal = normal.try_normalize(0.0);
                 let normal = normal.ok_or("a profile without length")?;
                 let point = at(*from);
-                let inside = self.middles();
-                let near = nearest(&inside, |x| normal.dot(&(x - point)).abs());
-                let side = near.map_or(1.0, |x| normal.dot(&(x - point)));
+                // A body may reach a little through the plane; most of it is in front.
+                let bodies = self.middles();
+                let distance = |x: &Vec3| normal.dot(&(x - point));
+                let near = |body: &Vec<Vec3>| {
+                    let all = body.iter().map(|x| distance(x).abs());
+                    all.fold(f64::INFINITY, f64::min)
+                };
+                let body = bodies.iter().min_by(|a, b| near(a).total_cmp(&near(b)));
+                let side = body.map_or(1.0, |body| body.iter().map(distance).sum());
                 let normal = normal * if side < 0.0 { -1.0 } else { 1.0 };
                 Shape::Plane { point, normal }
             }
@@ -133,19 +141,21 @@ impl Model<'_> {
             let [a, b, c, d] = facet.map(|at| positions[at]);
             (c - a).cross(&(d - b))
         };
-        // What is nearest to a facet is in front of it.
-        let inside = self.middles();
-        let mut found = (f64::INFINITY, 1.0);
-        for facet in &facets {
-            let (middle, normal) = (middle(facet), normal(facet));
-            if let Some(x) = nearest(&inside, |x| (x - middle).norm()) {
-                let arm = x - middle;
-                if arm.norm() < found.0 {
-                    found = (arm.norm(), normal.dot(&arm));
-                }
-            }
-        }
-        if found.1 < 0.0 {
+        // What is near to facets is in front of most of them.
+        let inside: Vec<Vec3> = self.middles().concat();
+        let arm = |facet: &[usize; 4]| {
+            let middle = middle(facet);
+            let x = nearest(&inside, |x| (x - middle).norm())?;
+            let arm = x - middle;
+            let cosine = normal(facet).normalize().dot(&arm) / arm.norm();
+            Some((arm.norm(), cosine))
+        };
+        let arms: Vec<(f64, f64)> = facets.iter().filter_map(arm).collect();
+        let least = arms.iter().map(|(length, _)| *length);
+        let near = least.fold(f64::INFINITY, f64::min) + NEAR * size;
+        let close = arms.iter().filter(|(length, _)| *length <= near);
+        let front: f64 = close.map(|(_, cosine)| cosine).sum();
+        if front < 0.0 {
             for [a, b, c, d] in &mut facets {
                 match c == d {
                     true => std::mem::swap(a, b),
@@ -156,16 +166,17 @@ impl Model<'_> {
         Shape::Facets(positions, facets)
     }
 
-    /// Middles of all elements, which are within bodies.
-    fn middles(&self) -> Vec<Vec3> {
+    /// Middles of all elements of each body, which are within it.
+    fn middles(&self) -> Vec<Vec<Vec3>> {
         let bodies = self.bodies.iter().map(|body| &body.reading.mesh);
-        let all = bodies.flat_map(|mesh| {
-            mesh.elements().map(|corners| {
+        let of_body = |mesh: &Mesh| {
+            let middle = |corners: &[NodeId]| {
                 let sum: Vec3 = corners.iter().map(|at| mesh.positions[at.index()]).sum();
                 sum / corners.len() as f64
-            })
-        });
-        all.collect()
+            };
+            mesh.elements().map(middle).collect()
+        };
+        bodies.map(of_body).collect()
     }
 }
 

@@ -81,6 +81,18 @@ fn revolved_arcs_close_around_the_axis() {
 }
 
 #[test]
+fn a_plane_that_a_body_reaches_through_looks_at_most_of_it() {
+    let surface = "*SURFACE, TYPE=CYLINDER, NAME=Face\nSTART, -2., 0.4\nLINE, 2., 0.4\n";
+    let (listed, model) = analytical(surface, "");
+    assert_listed(&listed, &[]);
+    let RigidShape::Plane { normal, .. } = model.rigid_surfaces[0].shape else {
+        panic!("{:?}", model.rigid_surfaces[0].shape);
+    };
+    // The cubes reach from y = 0 to 1.
+    assert_eq!(normal, Vec3::y());
+}
+
+#[test]
 fn fillets_are_listed() {
     let surface =
         "*SURFACE, TYPE=CYLINDER, NAME=Face, FILLET RADIUS=0.1\nSTART, -2., 3.\nLINE, 2., 3.\n";
