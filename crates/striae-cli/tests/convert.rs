@@ -54,6 +54,7 @@ Base-1.Low, ENCASTRE
 Pad-1.High, 1, 2
 Pad-1.High, 3, 3, -0.02
 *OUTPUT, FIELD, VARIABLE=PRESELECT
+*MONITOR, NODE=Pad-1.5, DOF=3
 *END STEP
 ";
 
@@ -81,7 +82,7 @@ fn a_converted_model_of_two_instances_pushes_with_the_right_force() {
     assert_eq!(code, Some(0), "{out}{errors}");
     assert_eq!(
         out,
-        "not converted:\n  line 49: *OUTPUT\nwrote model.toml\nnext: striae check model.toml\n"
+        "not converted:\n  line 50: *MONITOR\nwrote model.toml\nnext: striae check model.toml\n"
     );
     let (code, out, errors) = said(folder, &["check", "model.toml"]);
     assert_eq!(code, Some(0), "{out}{errors}");

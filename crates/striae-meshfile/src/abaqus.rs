@@ -27,6 +27,7 @@ mod material;
 mod names;
 mod part;
 mod sets;
+mod surface;
 mod unused;
 
 use super::collected::Collected;
@@ -185,6 +186,10 @@ impl<'a> Reader<'a> {
             "NGEN" | "NFILL" | "NCOPY" | "NMAP" | "ELGEN" | "ELCOPY" | "SYSTEM" => {
                 let fault = keyword.fault("nodes and elements written out one by one");
                 Err(fault.with_remedy("write the mesh out flat with its preprocessor"))
+            }
+            "PARAMETER" => {
+                let fault = keyword.fault("numbers in the places of parameters");
+                Err(fault.with_remedy("write the value for each name in angle brackets"))
             }
             _ => {
                 self.unused.insert(keyword.line);

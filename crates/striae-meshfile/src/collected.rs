@@ -51,7 +51,7 @@ pub(super) struct FileElement {
 }
 
 /// A face as a file names it.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum FileFace {
     /// By its corners, in any order.
     Corners([u64; 4]),
@@ -59,6 +59,8 @@ pub(super) enum FileFace {
     Eight([u64; 4], [u64; 4]),
     /// By element number and side, as [`striae_mesh::Face::side`].
     Side(u64, u8),
+    /// All faces of an element on the boundary of the body.
+    Free(u64),
 }
 
 /// The elements of a file when those of higher order are divided.
@@ -78,6 +80,7 @@ impl FileFace {
             Self::Corners(corners) => Self::Corners(all(corners)),
             Self::Eight(corners, on) => Self::Eight(all(corners), all(on)),
             Self::Side(element, side) => Self::Side(element + by, side),
+            Self::Free(element) => Self::Free(element + by),
         }
     }
 }

@@ -50,7 +50,9 @@ impl Collected {
             nodes.contains(node) || !known.contains(node)
         });
         retain(&mut self.facet_sets, |face| match face {
-            FileFace::Side(element, _) => chosen.contains(element) || !all.contains(element),
+            FileFace::Side(element, _) | FileFace::Free(element) => {
+                chosen.contains(element) || !all.contains(element)
+            }
             FileFace::Corners(corners) => corners.iter().all(|node| nodes.contains(node)),
             FileFace::Eight(corners, on) => {
                 corners.iter().chain(on).all(|node| nodes.contains(node))

@@ -7,7 +7,7 @@ use super::collected::{Collected, Divided, FileFace, corner_nodes, missing};
 use super::ids::Ids;
 use super::{MeshFileFault, Place, division};
 use std::collections::HashMap;
-use striae_mesh::{Face, Mesh, NodeId, sorted_face};
+use striae_mesh::{ElementId, Face, Mesh, NodeId, sorted_face};
 
 impl Collected {
     /// Gives a mesh the sets of the file.
@@ -34,14 +34,20 @@ impl Collected {
         if self.facet_sets.is_empty() {
             return Ok(());
         }
-        let boundary: HashMap<[NodeId; 4], Face> = mesh
-            .boundary_faces()
-            .into_iter()
-            .map(|face| (sorted_face(mesh.face_nodes(face)), face))
+        let outside = mesh.boundary_faces();
+        let boundary: HashMap<[NodeId; 4], Face> = outside
+            .iter()
+            .map(|face| (sorted_face(mesh.face_nodes(*face)), *face))
             .collect();
         for (name, members) in &self.facet_sets {
             let (mut faces, mut nodes, mut inside) = (Vec::new(), Vec::new(), 0);
             for &(place, face) in members {
+                if let FileFace::Free(number) = face {
+                    let found = free(&outside, ids, place, number)?;
+                    nodes.extend(found.iter().flat_map(|face| mesh.face_nodes(*face)));
+                    faces.extend(found);
+                    continue;
+                }
                 self.check_nodes(place, face)?;
                 let facets = facets(mesh, ids, divided, place, face)?;
                 let found = facets.iter();
@@ -73,7 +79,7 @@ impl Collected {
     fn check_nodes(&self, place: Place, face: FileFace) -> Result<(), MeshFileFault> {
         let corners = match face {
             FileFace::Corners(corners) | FileFace::Eight(corners, _) => corners,
-            FileFace::Side(..) => return Ok(()),
+            FileFace::Side(..) | FileFace::Free(_) => return Ok(()),
         };
         let mut corners = corners.into_iter();
         match corners.find(|number| !self.nodes.contains_key(number)) {
@@ -136,12 +142,30 @@ fn facets(
             Some((kind, nodes)) => division::facets(*kind, side.into(), nodes),
             None => return sides(mesh, ids, place, number, side),
         },
+        FileFace::Free(_) => Vec::new(),
     };
     let facets = facets.into_iter();
     let facets: Option<_> = facets
         .map(|corners| corner_nodes(corners, &ids.nodes))
         .collect();
     Ok(facets.unwrap_or_default())
+}
+
+/// Faces of an element among those on the boundary, which ascend.
+fn free(
+    outside: &[Face],
+    ids: &Ids,
+    place: Place,
+    number: u64,
+) -> Result<Vec<Face>, MeshFileFault> {
+    let elements = ids.elements.get(&number);
+    let elements = elements.ok_or_else(|| missing(place, "element", &ids.named(number)))?;
+    let of_element = |element: ElementId| {
+        let first = outside.partition_point(|face| face.element < element);
+        let own = outside[first..].iter();
+        own.take_while(move |face| face.element == element).copied()
+    };
+    Ok(elements.iter().copied().flat_map(of_element).collect())
 }
 
 /// Nodes of the facets of a side of an element.

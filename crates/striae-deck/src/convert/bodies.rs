@@ -1,14 +1,10 @@
 //! Bodies and their materials: instances of parts, or pieces of a mesh without parts.
 
 use super::Model;
-use crate::lower::cards;
-use crate::write::{
-    law,
-    value::{list, number, text},
-};
-use std::collections::BTreeSet;
+use crate::write::value::{list, text};
+use std::collections::{BTreeSet, HashMap};
 use std::path::Path;
-use striae_mesh::{ElementId, Mesh, NodeId, Sets};
+use striae_mesh::{ElementId, Face, Mesh, NodeId, Sets};
 use striae_meshfile::{Keyword, MeshFileError, Reading, read_part};
 
 /// An instance of a part.
@@ -22,7 +18,8 @@ pub(super) struct Instance<'a> {
 }
 
 impl Instance<'_> {
-    fn is_solid(&self) -> bool {
+    /// Returns whether it has solid elements.
+    pub(super) fn is_solid(&self) -> bool {
         self.kinds.iter().any(|kind| kind.starts_with("C3D"))
     }
 
@@ -89,15 +86,35 @@ pub(super) struct Body {
     elements: Option<String>,
     pub(super) reading: Reading,
     /// Material of all of it, or sections.
-    material: String,
+    pub(super) material: String,
     /// More sets of nodes by number.
     node_sets: Vec<(String, NodeId)>,
-    /// More sets of facets, by the set of their nodes.
-    facet_sets: Vec<(String, String)>,
+    /// More sets of facets.
+    facet_sets: Vec<(String, Facets)>,
+    /// Nodes and elements by their numbers in the file, in capitals.
+    nodes_by_number: HashMap<String, NodeId>,
+    elements_by_number: HashMap<String, Vec<ElementId>>,
+}
+
+/// Members of a set of facets.
+enum Facets {
+    /// All whose corners are in a set of nodes.
+    Among(String),
+    These(Vec<Face>),
 }
 
 impl Body {
     fn new(name: String, elements: Option<String>, reading: Reading) -> Self {
+        let nodes = (0..reading.mesh.positions.len()).map(NodeId::new);
+        let numbers = &reading.numbers;
+        let nodes_by_number = nodes
+            .map(|node| (numbers.node(node).to_uppercase(), node))
+            .collect();
+        let mut elements_by_number: HashMap<String, Vec<ElementId>> = HashMap::new();
+        for element in (0..reading.mesh.element_count()).map(ElementId::new) {
+            let number = numbers.element(element).to_uppercase();
+            elements_by_number.entry(number).or_default().push(element);
+        }
         Self {
             name,
             elements,
@@ -105,6 +122,8 @@ impl Body {
             material: String::new(),
             node_sets: Vec::new(),
             facet_sets: Vec::new(),
+            nodes_by_number,
+            elements_by_number,
         }
     }
 
@@ -125,8 +144,14 @@ impl Body {
             table += &format!("node_sets = {}\n", list(sets));
         }
         let sets = self.facet_sets.iter();
-        let sets =
-            sets.map(|(name, of)| format!("{{ name = {}, nodes = {} }}", text(name), text(of)));
+        let sets = sets.map(|(name, of)| match of {
+            Facets::Among(nodes) => format!("{{ name = {}, nodes = {} }}", text(name), text(nodes)),
+            Facets::These(faces) => {
+                let faces = faces.iter();
+                let sides = faces.map(|face| format!("[{}, {}]", face.element.0, face.side));
+                format!("{{ name = {}, sides = {} }}", text(name), list(sides))
+            }
+        });
         if !self.facet_sets.is_empty() {
             table += &format!("facet_sets = {}\n", list(sets));
         }
@@ -140,12 +165,9 @@ impl Body {
         }
         let bare = word.rsplit('.').next().unwrap_or(word);
         bare.parse::<u64>().ok()?;
-        let numbers = &self.reading.numbers;
-        let mut nodes = (0..self.reading.mesh.positions.len()).map(NodeId::new);
-        let node = nodes.find(|node| {
-            let of_file = numbers.node(*node);
-            of_file.eq_ignore_ascii_case(word) || of_file == bare && !of_file.contains('.')
-        })?;
+        let by_number = &self.nodes_by_number;
+        let node = by_number.get(&word.to_uppercase());
+        let node = *node.or_else(|| by_number.get(bare))?;
         let name = format!("node {word}");
         if self.node_sets.iter().all(|(known, _)| *known != name) {
             self.node_sets.push((name.clone(), node));
@@ -167,15 +189,46 @@ impl Body {
         }
         let name = format!("facets of {nodes}");
         if self.facet_sets.iter().all(|(known, _)| *known != name) {
-            self.facet_sets.push((name.clone(), nodes));
+            self.facet_sets.push((name.clone(), Facets::Among(nodes)));
         }
         Some(name)
     }
 
-    /// Middle of its nodes.
-    pub(super) fn middle(&self) -> striae_mesh::Vec3 {
-        let (low, high) = self.reading.mesh.bounds();
-        0.5 * (low + high)
+    /// A new set of faces.
+    pub(super) fn set_of_faces(&mut self, faces: Vec<Face>) -> String {
+        let sets = &self.facet_sets;
+        let own = sets.iter().filter(|(_, of)| matches!(of, Facets::These(_)));
+        let name = format!("loaded faces {}", own.count() + 1);
+        self.facet_sets.push((name.clone(), Facets::These(faces)));
+        name
+    }
+
+    /// Elements that a word of the file stands for.
+    pub(super) fn elements_of(&self, word: &str) -> Vec<ElementId> {
+        let sets = &self.reading.mesh.element_sets;
+        if let Some(set) = spelled(sets, word) {
+            return sets.get(&set).unwrap_or_default().to_vec();
+        }
+        let bare = word.rsplit('.').next().unwrap_or(word);
+        let by_number = &self.elements_by_number;
+        let found = by_number.get(&word.to_uppercase());
+        let found = found.or_else(|| by_number.get(bare));
+        found.cloned().unwrap_or_default()
+    }
+
+    /// Nodes of one of its sets, of the mesh or of the deck.
+    pub(super) fn nodes(&self, set: &str) -> Vec<NodeId> {
+        if let Some(nodes) = self.reading.mesh.node_sets.get(set) {
+            return nodes.to_vec();
+        }
+        let own = self.node_sets.iter().filter(|(name, _)| name == set);
+        own.map(|(_, node)| *node).collect()
+    }
+
+    /// Returns whether all its elements are in the set that a word stands for.
+    pub(super) fn is_within(&self, word: &str) -> bool {
+        let all = self.reading.mesh.element_count();
+        self.name.eq_ignore_ascii_case(word) || self.elements_of(word).len() == all
     }
 }
 
@@ -212,6 +265,11 @@ impl<'a> Model<'a> {
         for (line, what) in others {
             self.list(line, what);
         }
+        if self.bodies.is_empty() {
+            let line = self.keywords.first().map_or(1, |keyword| keyword.line);
+            let what = "the model has no solid elements such as C3D8; a deck is of solids in three dimensions";
+            self.list(line, what);
+        }
         self.read_materials();
         Ok(())
     }
@@ -240,7 +298,7 @@ impl<'a> Model<'a> {
                 if pieces > 1 {
                     let line = self.keywords.first().map_or(1, |keyword| keyword.line);
                     let what = format!(
-                        "the mesh has {pieces} pieces without element sets of their own; they become one body"
+                        "the mesh has {pieces} pieces that are no element sets; they become one body; give each an *ELSET to have several"
                     );
                     self.list(line, what);
                 }
@@ -251,86 +309,30 @@ impl<'a> Model<'a> {
         Ok(())
     }
 
-    fn read_materials(&mut self) {
-        let Some(first) = self.bodies.first() else {
-            return;
-        };
-        let cards = first.reading.materials.clone();
-        for card in &cards {
-            let keywords = self.keywords;
-            let at = keywords.iter().position(|keyword| {
-                keyword.name == "MATERIAL" && super::has(keyword, "NAME", &card.name)
-            });
-            let of_body = |body: &Body| {
-                let mut sections = body.reading.sections.iter();
-                sections.any(|section| section.material.eq_ignore_ascii_case(&card.name))
-            };
-            let is_used = self.bodies.iter().any(of_body);
-            let made = card.card.as_ref().map_err(Clone::clone).and_then(|card| {
-                let made = cards::material(card)?;
-                let lines =
-                    law::material(&made).ok_or("without a counterpart among the laws of decks")?;
-                Ok((lines, card.density))
-            });
-            let line = at.map_or(0, |at| keywords[at].line);
-            match made {
-                Ok((lines, density)) => {
-                    let density = density.map(|density| format!("density = {}\n", number(density)));
-                    self.materials += &format!(
-                        "\n[[material]]\nname = {}\n{}{lines}",
-                        text(&card.name),
-                        density.unwrap_or_default()
-                    );
-                    self.used
-                        .extend(striae_meshfile::material_lines(keywords, line));
-                }
-                Err(cause) if is_used => {
-                    let what = format!("*MATERIAL `{}`: {cause}", card.name);
-                    self.list(line, what + "; the deck needs a material of this name");
-                }
-                Err(cause) => self.list(line, format!("*MATERIAL `{}`: {cause}", card.name)),
-            }
+    /// Bodies by place with the node set that a word stands for.
+    pub(super) fn nodes(&mut self, word: &str) -> Vec<(usize, String)> {
+        let bodies = self.bodies_named(word).into_iter();
+        bodies
+            .filter_map(|at| Some((at, self.bodies[at].node_set(word)?)))
+            .collect()
+    }
+
+    /// Bodies by place that a word may speak of: the one whose name it begins with, or all.
+    pub(super) fn bodies_named(&self, word: &str) -> Vec<usize> {
+        let instance = word.rsplit_once('.').map(|(instance, _)| instance);
+        let exact = self.bodies.iter().position(|body| {
+            instance.is_some_and(|instance| body.name.eq_ignore_ascii_case(instance))
+        });
+        let mut instances = self.instances.iter();
+        let is_other = instances.any(|other| {
+            instance.is_some_and(|instance| other.name.eq_ignore_ascii_case(instance))
+        });
+        match exact {
+            Some(exact) => vec![exact],
+            // An instance that is no body has none of their sets.
+            None if is_other => Vec::new(),
+            None => (0..self.bodies.len()).collect(),
         }
-        for at in 0..self.bodies.len() {
-            let body = &self.bodies[at];
-            let elements = body.reading.mesh.element_count();
-            let spelled = |material: &str| {
-                let mut known = cards.iter();
-                let known = known.find(|card| card.name.eq_ignore_ascii_case(material));
-                text(known.map_or(material, |card| &card.name))
-            };
-            let sections = &body.reading.sections;
-            let covers = |set: &str| {
-                let members = body.reading.mesh.element_sets.get(set);
-                members.is_some_and(|members| members.len() == elements)
-            };
-            let made = match &sections[..] {
-                [only] if covers(&only.set) => {
-                    format!("material = {}\n", spelled(&only.material))
-                }
-                [] => {
-                    let line = self.keywords.first().map_or(1, |keyword| keyword.line);
-                    let what = format!("body `{}` has no *SOLID SECTION", body.name);
-                    self.listed.entry(line).or_default().push(what);
-                    String::new()
-                }
-                all => {
-                    let section = all.iter().map(|section| {
-                        format!(
-                            "{{ elements = {}, material = {} }}",
-                            text(&section.set),
-                            spelled(&section.material)
-                        )
-                    });
-                    format!("sections = {}\n", list(section))
-                }
-            };
-            self.bodies[at].material = made;
-        }
-        let sections = self.keywords.iter();
-        let sections = sections.filter(|keyword| keyword.name == "SOLID SECTION");
-        let lines: Vec<usize> = sections.map(|keyword| keyword.line).collect();
-        self.used.extend(lines);
     }
 }
 

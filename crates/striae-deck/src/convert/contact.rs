@@ -1,18 +1,30 @@
-//! Contact pairs, their friction, and ties.
+//! Contact pairs and ties.
 
-use super::{Model, has, numbers};
+use super::friction::Interaction;
+use super::{Model, has};
 use crate::write::value::{number, text};
+use std::collections::BTreeSet;
 use striae_meshfile::{Keyword, Row};
+
+/// A pair of the deck with the interaction of its surfaces.
+pub(super) struct Pair {
+    /// Its name as text of the deck.
+    pub(super) name: String,
+    pub(super) interaction: String,
+}
 
 impl<'a> Model<'a> {
     /// Reads pairs and ties, and general contact.
     pub(super) fn read_contact(&mut self) {
         let keywords = self.keywords;
+        let mut steps = 0;
         for keyword in keywords {
             match keyword.name.as_str() {
+                "STEP" => steps += 1,
                 "SURFACE" => self.surface(keyword),
                 "SURFACE INTERACTION" => {
                     self.used.insert(keyword.line);
+                    self.list_parameters(keyword, &["NAME", "TRACKING THICKNESS"]);
                     if keyword.parameter("NAME").is_none() {
                         self.list(keyword.line, "*SURFACE INTERACTION without a name");
                     }
@@ -22,23 +34,31 @@ impl<'a> Model<'a> {
                 "TIE" => self.ties(keyword),
                 "CONTACT" => {
                     self.used.insert(keyword.line);
-                    self.list_parameters(keyword, &[]);
+                    self.list_parameters(keyword, &["OP"]);
                 }
                 "CONTACT INCLUSIONS" => self.inclusions(keyword),
                 _ => {}
             }
+            if steps > 1 && ["CONTACT PAIR", "CONTACT INCLUSIONS"].contains(&keyword.name.as_str())
+            {
+                let what = format!("*{} of a later step: it acts from the start", keyword.name);
+                self.list(keyword.line, what);
+            }
         }
+        self.list_idle_interactions();
     }
 
     /// Surfaces stay in the file; those that a mesh does not read are listed unless they are of a
     /// rigid body.
     fn surface(&mut self, keyword: &Keyword<'_>) {
-        let kind = keyword
-            .parameter("TYPE")
-            .unwrap_or("ELEMENT")
-            .to_uppercase();
-        if ["ELEMENT", "NODE"].contains(&kind.as_str()) {
+        let kind = keyword.parameter("TYPE").unwrap_or("ELEMENT");
+        let kind = kind.to_uppercase();
+        if keyword.parameter("CROP").is_some() {
+            self.list(keyword.line, "*SURFACE, CROP: name its elements and faces");
+        } else if ["ELEMENT", "NODE"].contains(&kind.as_str()) {
             self.used.insert(keyword.line);
+            let known = ["NAME", "TYPE", "INTERNAL", "COMBINE", "INSTANCE", "TRIM"];
+            self.list_parameters(keyword, &known);
         } else if !self.used.contains(&keyword.line) {
             self.list(keyword.line, format!("*SURFACE, TYPE={kind}"));
         }
@@ -47,11 +67,14 @@ impl<'a> Model<'a> {
     /// Hard contact is what a deck has.
     fn behaviour(&mut self, keyword: &Keyword<'_>) {
         self.used.insert(keyword.line);
-        let pressure = keyword.parameter("PRESSURE-OVERCLOSURE");
-        if let Some(other) = pressure.filter(|word| !word.eq_ignore_ascii_case("HARD")) {
-            let what = format!("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE={other}: contact is hard");
+        let pressure = keyword.parameter("PRESSURE-OVERCLOSURE").unwrap_or("HARD");
+        if !["HARD", "TIED"].contains(&pressure.to_uppercase().as_str()) {
+            let what = format!(
+                "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE={pressure}: contact is hard, its numbers are left out"
+            );
             self.list(keyword.line, what);
         }
+        // Penalties approximate what is exact here.
         self.list_parameters(
             keyword,
             &[
@@ -73,12 +96,18 @@ impl<'a> Model<'a> {
             "CPSET",
             "TRACKING",
             "TIED",
+            "SMALL SLIDING",
+            "OP",
         ];
         self.list_parameters(keyword, &known);
-        let friction = self.friction(keyword.parameter("INTERACTION"), keyword.line);
+        if keyword.parameter("SMALL SLIDING").is_some() {
+            let what = "*CONTACT PAIR, SMALL SLIDING: surfaces may slide any way";
+            self.list(keyword.line, what);
+        }
+        let interaction = self.interaction(keyword.parameter("INTERACTION"), keyword.line);
         let adjust = keyword.parameter("ADJUST");
         let initial = adjust.map(|adjust| match striae_meshfile::finite(adjust) {
-            Some(gap) if gap > 0.0 => format!("initial = {{ close = {} }}\n", number(gap)),
+            Some(gap) if gap >= 0.0 => format!("initial = {{ close = {} }}\n", number(gap)),
             _ => "initial = \"close\"\n".to_owned(),
         });
         if let Some(set) = adjust.filter(|adjust| striae_meshfile::finite(adjust).is_none()) {
@@ -86,201 +115,103 @@ impl<'a> Model<'a> {
             self.list(keyword.line, what);
         }
         for row in &keyword.rows {
-            match keyword.parameter("TIED") {
-                Some(_) => self.tie(row, "tie", None),
-                None => self.pair(
-                    row,
-                    &format!("{friction}{}", initial.clone().unwrap_or_default()),
-                ),
+            match keyword.parameter("TIED").is_some() || interaction.is_tied {
+                true => self.tie(row, None),
+                false => self.pair(row, &interaction, initial.as_deref().unwrap_or_default()),
             }
         }
     }
 
-    /// General contact of everything, or between surfaces that have names.
-    fn inclusions(&mut self, keyword: &'a Keyword<'a>) {
-        self.used.insert(keyword.line);
-        if keyword.parameter("ALL EXTERIOR").is_some() && !self.contact.contains("\n[contact]\n") {
-            let (interaction, line) = self.assigned(["", ""]);
-            let friction = self.friction(interaction, line.unwrap_or(keyword.line));
-            self.contact += &format!("\n[contact]\nall = true\n{friction}");
-            self.list_assigned();
+    /// A pair of the surfaces of a row.
+    pub(super) fn pair(&mut self, row: &Row<'_>, interaction: &Interaction, more: &str) {
+        let word = |at: usize| row.words.get(at).copied().unwrap_or_default();
+        let (a, b) = (word(0), word(1));
+        if b.is_empty() || a.eq_ignore_ascii_case(b) {
+            return self.own_pair(row, a, interaction, more);
         }
-        for row in &keyword.rows {
-            let sides = [0, 1].map(|at| row.words.get(at).copied().unwrap_or_default());
-            if sides.contains(&"") {
-                let what = format!(
-                    "*CONTACT INCLUSIONS `{}`: contact of a surface with itself; make it a pair with `b = \"itself\"`",
-                    row.words.join(", ")
-                );
-                self.list(row.line, what);
-                continue;
-            }
-            let (interaction, line) = self.assigned(sides);
-            let friction = self.friction(interaction, line.unwrap_or(keyword.line));
-            self.pair(row, &friction);
-        }
-    }
-
-    /// Lists interactions of surfaces with names beside contact of everything.
-    fn list_assigned(&mut self) {
-        let keywords = self.keywords;
-        let assignments = keywords.iter();
-        let assignments =
-            assignments.filter(|keyword| keyword.name == "CONTACT PROPERTY ASSIGNMENT");
-        for row in assignments.flat_map(|keyword| &keyword.rows) {
-            let [a, b] = [0, 1].map(|at| row.words.get(at).copied().unwrap_or_default());
-            if !a.is_empty() || !b.is_empty() {
-                let what = format!(
-                    "*CONTACT PROPERTY ASSIGNMENT `{}`: state it in `[[contact.between]]`",
-                    row.words.join(", ")
-                );
-                self.list(row.line, what);
-            }
-        }
-    }
-
-    /// The interaction that general contact assigns to two surfaces.
-    fn assigned(&mut self, sides: [&str; 2]) -> (Option<&'a str>, Option<usize>) {
-        let keywords = self.keywords.iter();
-        let keywords = keywords.filter(|keyword| keyword.name == "CONTACT PROPERTY ASSIGNMENT");
-        let mut found = (None, None);
-        for keyword in keywords {
-            self.used.insert(keyword.line);
-            for row in &keyword.rows {
-                let [a, b, property] =
-                    [0, 1, 2].map(|at| row.words.get(at).copied().unwrap_or_default());
-                let same = |a: &str, b: &str| {
-                    a.eq_ignore_ascii_case(sides[0]) && b.eq_ignore_ascii_case(sides[1])
-                };
-                if a.is_empty() && b.is_empty() || same(a, b) || same(b, a) {
-                    found = (Some(property), Some(keyword.line));
-                }
-            }
-        }
-        found
-    }
-
-    /// A line with the friction of an interaction; none without friction.
-    fn friction(&mut self, interaction: Option<&str>, line: usize) -> String {
-        let Some(name) = interaction else {
-            return String::new();
-        };
-        let keywords = self.keywords;
-        let at = keywords.iter().position(|keyword| {
-            keyword.name == "SURFACE INTERACTION" && has(keyword, "NAME", name)
-        });
-        let Some(at) = at else {
-            self.list(line, format!("there is no *SURFACE INTERACTION `{name}`"));
-            return String::new();
-        };
-        let options = keywords[at + 1..].iter();
-        let mut options = options.take_while(|keyword| {
-            !["SURFACE INTERACTION", "STEP", "CONTACT PAIR", "MATERIAL"]
-                .contains(&keyword.name.as_str())
-        });
-        let Some(friction) = options.find(|keyword| keyword.name == "FRICTION") else {
-            return String::new();
-        };
-        self.used.insert(friction.line);
-        match self.coulomb(friction) {
-            Ok(line) => line,
-            Err(what) => {
-                self.list(friction.line, format!("*FRICTION {what}: no friction"));
-                String::new()
-            }
-        }
-    }
-
-    fn coulomb(&mut self, friction: &Keyword<'_>) -> Result<String, String> {
-        let known = [
-            "SLIP TOLERANCE",
-            "ELASTIC SLIP",
-            "TAUMAX",
-            "EXPONENTIAL DECAY",
-            "LAGRANGE",
-        ];
-        let others = friction.parameters().map(|(key, _)| key);
-        let others: Vec<&str> = others.filter(|key| !known.contains(key)).collect();
-        if !others.is_empty() {
-            return Err(format!("with {}", others.join(", ")));
-        }
-        let row = friction.rows.first();
-        let row = row.and_then(|row| numbers(&row.words)).unwrap_or_default();
-        let is_decay = friction.parameter("EXPONENTIAL DECAY").is_some();
-        let (mu, decay) = match row[..] {
-            [still, moving, rate] if is_decay && still > 0.0 && rate > 0.0 => {
-                let (ratio, rate) = (number(moving / still), number(1.0 / rate));
-                let decay =
-                    format!(", decay = {{ kinetic_over_static = {ratio}, slip_rate = {rate} }}");
-                (still, decay)
-            }
-            _ if is_decay => return Err("without its three constants".to_owned()),
-            [mu, ref others @ ..] if mu >= 0.0 => {
-                if others.iter().any(|other| *other != 0.0) || friction.rows.len() > 1 {
-                    let what = "*FRICTION that depends on slip rate, pressure or temperature: its first coefficient is taken";
-                    self.list(friction.line, what);
-                }
-                (mu, String::new())
-            }
-            _ => return Err("without a coefficient".to_owned()),
-        };
-        let cap = friction
-            .parameter("TAUMAX")
-            .and_then(striae_meshfile::finite);
-        let cap = cap.map(|cap| format!(", shear_cap = {}", number(cap)));
-        let cap = cap.unwrap_or_default();
-        Ok(format!(
-            "friction = {{ law = \"coulomb\", mu = {}{cap}{decay} }}\n",
-            number(mu)
-        ))
-    }
-
-    fn pair(&mut self, row: &Row<'_>, more: &str) {
-        let Some([a, b]) = self.sides(row) else {
+        let Some([first, second]) = self.sides(row) else {
             return;
         };
-        let name = self.name("pair", row);
-        self.contact += &format!("\n[[pair]]\nname = {name}\na = {a}\nb = {b}\n{more}");
+        let texture = match interaction.is_anisotropic {
+            true => self.slip_directions(row, a, word(2)),
+            false => String::new(),
+        };
+        let first = first.strip_suffix(" }").unwrap_or(&first);
+        let name = self.name("pair", &format!("{a} on {b}"));
+        self.contact += &format!(
+            "\n[[pair]]\nname = {name}\na = {first}{texture} }}\nb = {second}\n{}{more}",
+            interaction.line()
+        );
+        let interaction = interaction.name.clone();
+        self.pairs.push(Pair { name, interaction });
+    }
+
+    /// A surface that may touch itself.
+    fn own_pair(&mut self, row: &Row<'_>, word: &str, interaction: &Interaction, more: &str) {
+        match self.side(word) {
+            Ok(side) if side.starts_with("{ body") => {
+                let name = self.name("pair", &format!("{word} on itself"));
+                self.contact += &format!(
+                    "\n[[pair]]\nname = {name}\na = {side}\nb = \"itself\"\n{}{more}",
+                    interaction.line()
+                );
+                if interaction.is_anisotropic {
+                    let what = "state the texture of the pair of a surface with itself";
+                    self.list(row.line, what);
+                }
+                let interaction = interaction.name.clone();
+                self.pairs.push(Pair { name, interaction });
+            }
+            Ok(_) => self.list(
+                row.line,
+                format!("contact of the rigid `{word}` with itself"),
+            ),
+            Err(what) => {
+                self.list(row.line, format!("contact of `{word}` with itself: {what}"));
+            }
+        }
     }
 
     fn ties(&mut self, keyword: &'a Keyword<'a>) {
         self.used.insert(keyword.line);
+        // Ties tie displacements, of nodes that are moved onto the other surface or not.
         let known = [
             "NAME",
             "ADJUST",
             "TYPE",
             "POSITION TOLERANCE",
             "NO ROTATION",
+            "CONSTRAINT RATIO",
         ];
         self.list_parameters(keyword, &known);
         let within = keyword.parameter("POSITION TOLERANCE");
         let within = within.and_then(striae_meshfile::finite);
         for row in &keyword.rows {
-            self.tie(row, "tie", within);
+            self.tie(row, within);
         }
     }
 
-    fn tie(&mut self, row: &Row<'_>, kind: &str, within: Option<f64>) {
+    fn tie(&mut self, row: &Row<'_>, within: Option<f64>) {
         let Some([a, b]) = self.sides(row) else {
             return;
         };
         if a.contains("rigid =") || b.contains("rigid =") {
-            self.list(row.line, "a tie to a rigid surface");
+            let what = "a tie to a rigid surface; tie its nodes by `tied` of `[[rigid]]`";
+            self.list(row.line, what);
             return;
         }
         let within = within.map(|within| format!("within = {}\n", number(within)));
-        let name = self.name(kind, row);
+        let name = self.name("tie", &format!("{} on {}", row.words[0], row.words[1]));
         self.contact += &format!(
             "\n[[tie]]\nname = {name}\na = {a}\nb = {b}\n{}",
             within.unwrap_or_default()
         );
     }
 
-    /// A name of the two surfaces of a row, which is new.
-    fn name(&self, kind: &str, row: &Row<'_>) -> String {
-        let base = format!("{} on {}", row.words[0], row.words[1]);
+    /// A name that is new, as text of the deck.
+    fn name(&self, kind: &str, base: &str) -> String {
         let names = (1..).map(|count| match count {
-            1 => text(&base),
+            1 => text(base),
             _ => text(&format!("{base}-{count}")),
         });
         let is_free = |name: &String| {
@@ -299,7 +230,7 @@ impl<'a> Model<'a> {
         let [a, b] = match row.words[..] {
             [a, b, ..] if !a.is_empty() && !b.is_empty() => [a, b],
             _ => {
-                let what = format!("contact of `{}` with itself", row.words.join(", "));
+                let what = format!("two surfaces are needed, found `{}`", row.words.join(", "));
                 self.list(row.line, what);
                 return None;
             }
@@ -315,31 +246,92 @@ impl<'a> Model<'a> {
     }
 
     /// A side of a pair.
-    fn side(&mut self, word: &str) -> Result<String, String> {
+    pub(super) fn side(&mut self, word: &str) -> Result<String, String> {
         if let Some(at) = self.rigid_of_surface(word) {
             return Ok(format!("{{ rigid = {} }}", text(&self.rigid[at].name)));
         }
         let found = self.facets(word);
         match &found[..] {
-            [(body, facets)] => Ok(format!(
-                "{{ body = {}, facets = {} }}",
-                text(body),
-                text(facets)
+            [(body, facets)] => {
+                let body = text(&self.bodies[*body].name);
+                Ok(format!("{{ body = {body}, facets = {} }}", text(facets)))
+            }
+            [] => Err(self.missing_facets(word)),
+            _ => Err(format!(
+                "surface `{word}` is on several bodies; name one for each of them"
             )),
-            [] => Err(format!("no body has facets of surface `{word}`")),
-            _ => Err(format!("surface `{word}` is on several bodies")),
         }
     }
 
-    /// Bodies with the facet set that a word stands for.
-    pub(super) fn facets(&mut self, word: &str) -> Vec<(String, String)> {
-        let exact = self.bodies.iter().position(|body| {
-            let (instance, _) = word.rsplit_once('.').unwrap_or_default();
-            body.name.eq_ignore_ascii_case(instance)
+    /// Reason why a surface has no facets.
+    pub(super) fn missing_facets(&mut self, word: &str) -> String {
+        let bare = word.rsplit('.').next().unwrap_or(word);
+        let mut surfaces = self.keywords.iter();
+        let surface = surfaces.find(|keyword| {
+            keyword.name == "SURFACE" && (has(keyword, "NAME", word) || has(keyword, "NAME", bare))
         });
-        let bodies = self.bodies.iter_mut().enumerate();
-        let bodies = bodies.filter(|(at, _)| exact.is_none_or(|exact| exact == *at));
-        let found = bodies.filter_map(|(_, body)| Some((body.name.clone(), body.facet_set(word)?)));
+        let Some(surface) = surface else {
+            return match self.nodes(word).is_empty() {
+                true => format!("there is no *SURFACE `{word}`"),
+                false => format!("the nodes of `{word}` make up no facet; name elements and faces"),
+            };
+        };
+        let kind = surface.parameter("TYPE").unwrap_or("ELEMENT");
+        if kind.eq_ignore_ascii_case("NODE") {
+            return format!("the nodes of `{word}` make up no facet; name elements and faces");
+        }
+        if !kind.eq_ignore_ascii_case("ELEMENT") {
+            return format!("`{word}` is an analytical surface of no rigid body");
+        }
+        let kinds: BTreeSet<String> = self.kinds_of_surface(surface);
+        match kinds.is_empty() {
+            true => format!("no body has facets of surface `{word}`"),
+            false => format!(
+                "surface `{word}` is of elements {} and not on a body of solids",
+                kinds.into_iter().collect::<Vec<_>>().join(", ")
+            ),
+        }
+    }
+
+    /// Types of the elements of a surface that are no solids.
+    fn kinds_of_surface(&self, surface: &Keyword<'_>) -> BTreeSet<String> {
+        let rows = surface.rows.iter();
+        let words: Vec<&str> = rows
+            .map(|row| row.words[0].rsplit('.').next().unwrap_or(row.words[0]))
+            .collect();
+        let elements = self.keywords.iter();
+        let named = elements.filter(|keyword| {
+            let is_one = |row: &Row<'_>| words.contains(&row.words[0]);
+            let of_set = |word: &&str| has(keyword, "ELSET", word);
+            keyword.name == "ELEMENT"
+                && (words.iter().any(of_set) || keyword.rows.iter().any(is_one))
+        });
+        let kinds = named.filter_map(|keyword| keyword.parameter("TYPE"));
+        let kinds = kinds.map(str::to_uppercase);
+        kinds.filter(|kind| !kind.starts_with("C3D")).collect()
+    }
+
+    /// Bodies by place with the facet set that a word stands for.
+    pub(super) fn facets(&mut self, word: &str) -> Vec<(usize, String)> {
+        let bodies = self.bodies_named(word).into_iter();
+        let found = bodies.filter_map(|at| Some((at, self.bodies[at].facet_set(word)?)));
         found.collect()
+    }
+
+    /// Lists friction of interactions that nothing refers to.
+    fn list_idle_interactions(&mut self) {
+        let keywords = self.keywords;
+        let mut name = "";
+        for keyword in keywords {
+            match keyword.name.as_str() {
+                "SURFACE INTERACTION" => name = keyword.parameter("NAME").unwrap_or_default(),
+                "CHANGE FRICTION" => name = "",
+                "FRICTION" if !self.used.contains(&keyword.line) && !name.is_empty() => {
+                    let what = format!("*FRICTION of `{name}`, which no contact refers to");
+                    self.list(keyword.line, what);
+                }
+                _ => {}
+            }
+        }
     }
 }

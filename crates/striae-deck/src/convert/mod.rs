@@ -8,8 +8,22 @@ mod amplitude;
 mod bodies;
 mod condition;
 mod contact;
+mod coupling;
+mod elements;
+mod faces;
+mod friction;
+mod general;
+mod initial;
+mod load;
+mod materials;
+mod motion;
+mod output;
 mod points;
+mod profile;
+mod remedy;
 mod rigid;
+mod slip_direction;
+mod stated;
 mod step;
 
 use crate::write::value::text;
@@ -35,9 +49,13 @@ pub fn convert(path: &Path, written: &str) -> Result<Converted, MeshFileError> {
     let keywords = input.keywords()?;
     let mut model = Model::new(&input, &keywords);
     model.read_bodies(path)?;
+    model.read_loaded_faces();
     model.read_rigid();
     model.read_contact();
     model.read_steps();
+    model.read_output();
+    model.list_idle_amplitudes();
+    model.list_other_elements();
     Ok(model.finished(path, written))
 }
 
@@ -53,10 +71,14 @@ struct Model<'a> {
     rigid: Vec<rigid::Rigid>,
     /// Tables of pairs and ties.
     contact: String,
-    /// Tables of curves by their points.
-    curves: Vec<(String, Vec<[f64; 2]>)>,
+    pairs: Vec<contact::Pair>,
+    loaded_faces: faces::LoadedFaces,
+    curves: Vec<(String, amplitude::Curve)>,
     /// Tables of steps.
     steps: String,
+    /// Record of whether the last step takes displacements as large; `None` before the first.
+    is_nonlinear: Option<bool>,
+    output: output::Output,
     /// Lines of keywords of which something was made.
     used: BTreeSet<usize>,
     /// Content without a counterpart, by line.
@@ -79,8 +101,12 @@ impl<'a> Model<'a> {
             materials: String::new(),
             rigid: Vec::new(),
             contact: String::new(),
+            pairs: Vec::new(),
+            loaded_faces: faces::LoadedFaces::default(),
             curves: Vec::new(),
             steps: String::new(),
+            is_nonlinear: None,
+            output: output::Output::default(),
             used: BTreeSet::new(),
             listed: BTreeMap::new(),
         }
@@ -105,6 +131,7 @@ impl<'a> Model<'a> {
     }
 
     fn finished(mut self, path: &Path, written: &str) -> Converted {
+        let output = self.output_table();
         for keyword in self.keywords {
             let name = keyword.name.as_str();
             let is_of_mesh = OF_MESHES.contains(&name) || name.starts_with("END ");
@@ -112,7 +139,8 @@ impl<'a> Model<'a> {
                 && !self.used.contains(&keyword.line)
                 && !self.listed.contains_key(&keyword.line)
             {
-                self.list(keyword.line, format!("*{name}"));
+                let advice = remedy::remedy(name);
+                self.list(keyword.line, format!("*{name}{advice}"));
             }
         }
         let lines = self.listed.iter();
@@ -141,6 +169,7 @@ impl<'a> Model<'a> {
         deck += &self.contact;
         deck += &amplitude::tables(&self.curves);
         deck += &self.steps;
+        deck += &output;
         Converted { deck, listed }
     }
 }

@@ -1,10 +1,8 @@
-//! Rigid bodies: discrete surfaces, planes, solids made rigid, and nodes coupled to a point.
-//!
-//! Longer than other files, as the many ways in which Abaqus names a rigid body stand together.
+//! Rigid bodies: discrete and analytical surfaces, solids made rigid, and nodes tied to a point.
 
+use super::Model;
 use super::bodies::Body;
 use super::points::Point;
-use super::{Model, numbers};
 use crate::write::value::{list, text, vector};
 use std::collections::BTreeSet;
 use striae_mesh::Vec3;
@@ -18,6 +16,8 @@ pub(super) struct Rigid {
     shape: Shape,
     /// The node that its conditions name.
     pub(super) reference: Option<Point>,
+    /// The node whose displacements are its rotations, as CalculiX has it.
+    turning: Option<Point>,
     /// The instance whose surfaces it has.
     instance: Option<String>,
     /// Surfaces that are on it, in capitals.
@@ -28,9 +28,11 @@ pub(super) struct Rigid {
     pub(super) targets: [f64; 6],
 }
 
-enum Shape {
+pub(super) enum Shape {
     /// Elements of the file, all of them where there is no name.
     Mesh(Option<String>),
+    /// Facets of an analytical surface.
+    Facets(Vec<Vec3>, Vec<[usize; 4]>),
     Plane {
         point: Vec3,
         normal: Vec3,
@@ -40,12 +42,13 @@ enum Shape {
 }
 
 impl Rigid {
-    fn new(line: usize, name: String, shape: Shape, reference: Option<Point>) -> Self {
+    pub(super) fn new(line: usize, name: String, shape: Shape, reference: Option<Point>) -> Self {
         Self {
             name,
             line,
             shape,
             reference,
+            turning: None,
             instance: None,
             surfaces: BTreeSet::new(),
             held: [false; 6],
@@ -61,6 +64,14 @@ impl Rigid {
                 let part =
                     part.map_or(String::new(), |part| format!(", elements = {}", text(part)));
                 format!("mesh = {{ file = {}{part} }}", text(written))
+            }
+            Shape::Facets(positions, facets) => {
+                let positions = positions.iter().map(|x| format!("\n    {},", vector(x)));
+                let facets = facets.iter().map(|of| list(of.map(|at| at.to_string())));
+                let facets = facets.map(|of| format!("\n    {of},"));
+                let (positions, facets) =
+                    (positions.collect::<String>(), facets.collect::<String>());
+                format!("mesh = {{ positions = [{positions}\n], facets = [{facets}\n] }}")
             }
             Shape::Plane { point, normal } => {
                 let (point, normal) = (vector(point), vector(normal));
@@ -93,6 +104,8 @@ impl<'a> Model<'a> {
             match keyword.name.as_str() {
                 "RIGID BODY" => self.rigid_body(keyword),
                 "COUPLING" => self.coupling(keyword),
+                "KINEMATIC COUPLING" => self.kinematic_coupling(keyword),
+                "MPC" => self.multi_point(keyword),
                 _ => {}
             }
         }
@@ -173,6 +186,13 @@ impl<'a> Model<'a> {
         all.position(|rigid| rigid.reference.is_some_and(|(own, _)| own == id))
     }
 
+    /// The rigid body whose rotations are the displacements of a point that a word stands for.
+    pub(super) fn rigid_of_turning_point(&self, word: &str) -> Option<usize> {
+        let (id, _) = self.points.find(word)?;
+        let mut all = self.rigid.iter();
+        all.position(|rigid| rigid.turning.is_some_and(|(own, _)| own == id))
+    }
+
     fn rigid_body(&mut self, keyword: &'a Keyword<'a>) {
         self.used.insert(keyword.line);
         let known = [
@@ -182,6 +202,8 @@ impl<'a> Model<'a> {
             "TIE NSET",
             "PIN NSET",
             "POSITION",
+            "NSET",
+            "ROT NODE",
         ];
         self.list_parameters(keyword, &known);
         let reference = keyword
@@ -189,13 +211,22 @@ impl<'a> Model<'a> {
             .and_then(|word| self.point(keyword, word));
         let name = self.rigid_name("rigid");
         if let Some(surface) = keyword.parameter("ANALYTICAL SURFACE") {
-            match self.plane(surface) {
-                Ok((point, normal, line)) => {
-                    let shape = Shape::Plane { point, normal };
+            match self.analytical(surface) {
+                Ok((shape, line)) => {
+                    if let Shape::Facets(_, facets) = &shape {
+                        let count = facets.len();
+                        let what =
+                            format!("analytical surface `{surface}` is made of {count} facets");
+                        self.list(line, what);
+                    }
                     let mut rigid = Rigid::new(keyword.line, name, shape, reference);
                     rigid.surfaces.insert(surface.to_uppercase());
                     self.used.insert(line);
-                    self.listed.remove(&line);
+                    let keywords = self.keywords;
+                    let stated = keywords.iter().find(|keyword| keyword.line == line);
+                    if let Some(stated) = stated {
+                        self.list_parameters(stated, &["NAME", "TYPE", "INTERNAL"]);
+                    }
                     self.rigid.push(rigid);
                 }
                 Err(what) => self.list(keyword.line, format!("*RIGID BODY `{surface}`: {what}")),
@@ -243,82 +274,21 @@ impl<'a> Model<'a> {
             }
             return;
         }
-        let sets = ["TIE NSET", "PIN NSET"].into_iter();
+        let sets = ["TIE NSET", "PIN NSET", "NSET"].into_iter();
         let sets: Vec<&str> = sets.filter_map(|key| keyword.parameter(key)).collect();
         let tied: Vec<(usize, String)> = sets.iter().flat_map(|set| self.nodes(set)).collect();
         match tied.is_empty() {
             true => self.list(keyword.line, "*RIGID BODY without nodes of a body"),
-            false => self
-                .rigid
-                .push(Rigid::new(keyword.line, name, Shape::Tied(tied), reference)),
+            false => {
+                let mut rigid = Rigid::new(keyword.line, name, Shape::Tied(tied), reference);
+                let turning = keyword.parameter("ROT NODE");
+                rigid.turning = turning.and_then(|word| self.point(keyword, word));
+                self.rigid.push(rigid);
+            }
         }
     }
 
-    /// A kinematic coupling of all displacements.
-    fn coupling(&mut self, keyword: &'a Keyword<'a>) {
-        self.used.insert(keyword.line);
-        let known = ["CONSTRAINT NAME", "REF NODE", "SURFACE"];
-        self.list_parameters(keyword, &known);
-        let after = self
-            .keywords
-            .iter()
-            .skip_while(|other| other.line != keyword.line);
-        let Some(kind) = after.into_iter().nth(1) else {
-            return;
-        };
-        let name = keyword.parameter("CONSTRAINT NAME").unwrap_or("coupling");
-        if kind.name != "KINEMATIC" {
-            let what = format!("*COUPLING `{name}` with *{}", kind.name);
-            self.list(keyword.line, what);
-            return;
-        }
-        self.used.insert(kind.line);
-        let rows = kind.rows.iter().filter_map(|row| numbers(&row.words));
-        let held: BTreeSet<u64> = rows
-            .flat_map(|row| {
-                let first = row.first().map_or(1, |first| *first as u64);
-                let last = row.get(1).map_or(first, |last| *last as u64);
-                first..=last.min(6)
-            })
-            .collect();
-        if !kind.rows.is_empty() && !(1..=3).all(|of| held.contains(&of)) {
-            self.list(
-                kind.line,
-                format!("*KINEMATIC `{name}` of some displacements only"),
-            );
-            return;
-        }
-        let surface = keyword.parameter("SURFACE").unwrap_or_default();
-        let tied = self.nodes(surface);
-        let reference = keyword
-            .parameter("REF NODE")
-            .and_then(|word| self.point(keyword, word));
-        if tied.is_empty() {
-            self.list(
-                keyword.line,
-                format!("*COUPLING `{name}`: no body has nodes of `{surface}`"),
-            );
-            return;
-        }
-        let name = self.rigid_name(name);
-        self.rigid
-            .push(Rigid::new(keyword.line, name, Shape::Tied(tied), reference));
-    }
-
-    /// Bodies by place with the node set that a word stands for.
-    pub(super) fn nodes(&mut self, word: &str) -> Vec<(usize, String)> {
-        let instance = word.rsplit_once('.').map(|(instance, _)| instance);
-        let exact = self.bodies.iter().position(|body| {
-            instance.is_some_and(|instance| body.name.eq_ignore_ascii_case(instance))
-        });
-        let bodies = self.bodies.iter_mut().enumerate();
-        let bodies = bodies.filter(|(at, _)| exact.is_none_or(|exact| exact == *at));
-        bodies
-            .filter_map(|(at, body)| Some((at, body.node_set(word)?)))
-            .collect()
-    }
-
-    fn point(&mut self, keyword: &Keyword<'_>, word: &str) -> Option<Point> {
+    pub(super) fn point(&mut self, keyword: &Keyword<'_>, word: &str) -> Option<Point> {
         let own = self.instances.iter().find(|instance| {
             let mut own = instance.own.iter();
             own.any(|own| own.line == keyword.line)
@@ -335,7 +305,7 @@ impl<'a> Model<'a> {
         found
     }
 
-    fn rigid_name(&self, base: &str) -> String {
+    pub(super) fn rigid_name(&self, base: &str) -> String {
         let names = (1..).map(|count| match count {
             1 => base.to_owned(),
             _ => format!("{base}-{count}"),
@@ -404,54 +374,5 @@ impl<'a> Model<'a> {
         of_set
             .filter_map(|keyword| Some(keyword.parameter("NAME")?.to_uppercase()))
             .collect()
-    }
-
-    /// The plane that an analytical surface is, its normal towards the bodies.
-    ///
-    /// In a part the profile of `TYPE=CYLINDER` is in the plane of x and y, its generator is z.
-    fn plane(&self, surface: &str) -> Result<(Vec3, Vec3, usize), String> {
-        let (prefix, bare) = surface.rsplit_once('.').unwrap_or(("", surface));
-        let named = |keyword: &&&Keyword<'_>| {
-            keyword.name == "SURFACE" && super::has(keyword, "NAME", bare)
-        };
-        let mut instances = self.instances.iter();
-        let instance = instances.find(|instance| instance.name.eq_ignore_ascii_case(prefix));
-        let instance = instance.ok_or("an analytical surface outside of an instance")?;
-        let keyword = instance
-            .own
-            .iter()
-            .find(named)
-            .ok_or("there is no such *SURFACE")?;
-        let rows: Vec<&[&str]> = keyword.rows.iter().map(|row| &row.words[..]).collect();
-        let is_word =
-            |row: &[&str], word: &str| row.first().is_some_and(|w| w.eq_ignore_ascii_case(word));
-        let start = rows.iter().position(|row| is_word(row, "START"));
-        let profile = start.map_or(&[][..], |start| &rows[start..]);
-        let is_blank = |row: &&[&str]| row.iter().all(|word| word.is_empty());
-        let is_plain = rows[..start.unwrap_or(0)].iter().all(is_blank);
-        match profile {
-            [from, to]
-                if is_word(to, "LINE") && super::has(keyword, "TYPE", "CYLINDER") && is_plain =>
-            {
-                let at = |row: &[&str]| {
-                    let row = numbers(&row[1..]).filter(|row| row.len() >= 2)?;
-                    instance.keyword.placed(Vec3::new(row[0], row[1], 0.0))
-                };
-                let along = |x: Vec3| instance.keyword.placed(x);
-                let faulty = "no numbers";
-                let (from, to) = (at(from).ok_or(faulty)?, at(to).ok_or(faulty)?);
-                let origin = along(Vec3::zeros()).ok_or(faulty)?;
-                let generator = along(Vec3::z()).ok_or(faulty)? - origin;
-                let normal = (to - from).cross(&generator);
-                let middle: Vec3 = self.bodies.iter().map(Body::middle).sum();
-                let middle = middle / self.bodies.len().max(1) as f64;
-                let side = normal.dot(&(middle - from)).signum();
-                let normal = normal
-                    .try_normalize(0.0)
-                    .ok_or("a profile without length")?;
-                Ok((from, normal * side, keyword.line))
-            }
-            _ => Err("an analytical surface that is not a plane; mesh it with R3D4".to_owned()),
-        }
     }
 }

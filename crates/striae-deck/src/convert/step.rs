@@ -1,7 +1,7 @@
 //! Steps.
 
 use super::amplitude::Period;
-use super::condition::{Component, History, Stated, Target, curve_key};
+use super::stated::{Component, History, Stated, Target};
 use super::{Model, has, numbers};
 use crate::write::value::{list, number, text};
 use std::collections::{BTreeMap, BTreeSet};
@@ -13,6 +13,8 @@ struct Procedure {
     /// First, smallest and largest increment as fractions of it.
     increments: [f64; 3],
     is_dynamic: bool,
+    /// Parameter of the method of Hilber, Hughes and Taylor.
+    alpha: Option<f64>,
 }
 
 impl<'a> Model<'a> {
@@ -24,7 +26,7 @@ impl<'a> Model<'a> {
         let first = keywords.iter().position(|keyword| is_step(&keyword));
         let first = first.unwrap_or(keywords.len());
         let before: Vec<&Keyword<'_>> = keywords[..first].iter().collect();
-        let (mut start, mut names) = (0.0, BTreeSet::new());
+        let (mut start, mut names, mut is_first) = (0.0, BTreeSet::new(), true);
         let mut at = first;
         while at < keywords.len() {
             let after = keywords[at + 1..]
@@ -32,7 +34,8 @@ impl<'a> Model<'a> {
                 .position(|keyword| is_step(&keyword));
             let end = after.map_or(keywords.len(), |after| at + 1 + after);
             let within: Vec<&Keyword<'_>> = keywords[at..end].iter().collect();
-            let initial = if at == first { &before[..] } else { &[] };
+            // What stands before all steps belongs to the first that is one here.
+            let initial = is_first.then_some(&before[..]);
             let stated = keywords[at]
                 .parameter("NAME")
                 .filter(|name| !name.is_empty());
@@ -42,10 +45,14 @@ impl<'a> Model<'a> {
             }
             if let Some(duration) = self.step(&name, initial, &within, start, &mut history) {
                 start += duration;
+                is_first = false;
             }
             at = end;
         }
-        if first == keywords.len() {
+        if is_first && first < keywords.len() {
+            let what = "no step is one that a deck can state; the deck needs one";
+            self.list(keywords[first].line, what);
+        } else if is_first {
             let line = keywords.last().map_or(1, |keyword| keyword.line);
             self.list(line, "the model has no *STEP; the deck needs one");
         }
@@ -55,7 +62,7 @@ impl<'a> Model<'a> {
     fn step(
         &mut self,
         name: &str,
-        initial: &[&'a Keyword<'a>],
+        initial: Option<&[&'a Keyword<'a>]>,
         within: &[&'a Keyword<'a>],
         start: f64,
         history: &mut History,
@@ -72,17 +79,15 @@ impl<'a> Model<'a> {
                 "EXTRAPOLATION",
             ],
         );
-        if has(within[0], "NLGEOM", "NO") {
-            self.list(
-                within[0].line,
-                "*STEP, NLGEOM=NO: displacements may be large",
-            );
-        }
+        self.nonlinearity(within[0]);
         let Some(procedure) = self.procedure(within, start) else {
-            self.list(
-                within[0].line,
-                format!("*STEP `{name}`: no static or implicit dynamic step"),
-            );
+            let mut others = within.iter();
+            let is_explicit = others.any(|keyword| keyword.parameter("EXPLICIT").is_some());
+            let what = match is_explicit {
+                true => "an explicit step; take *DYNAMIC without EXPLICIT",
+                false => "no static or implicit dynamic step",
+            };
+            self.list(within[0].line, format!("*STEP `{name}`: {what}"));
             for keyword in within.iter().skip(1) {
                 if !keyword.name.starts_with("END ") {
                     self.list(keyword.line, format!("*{} of this step", keyword.name));
@@ -95,20 +100,29 @@ impl<'a> Model<'a> {
             ..procedure.period
         };
         let mut stated = Stated::default();
-        for (keywords, period) in [(initial, at_rest), (within, procedure.period)] {
+        let before = initial.unwrap_or_default();
+        for (keywords, period) in [(before, at_rest), (within, procedure.period)] {
             for &keyword in keywords {
                 match keyword.name.as_str() {
                     "BOUNDARY" => self.boundary(keyword, period, history, &mut stated),
-                    "CLOAD" => self.forces(keyword, period, history, &mut stated),
-                    "DSLOAD" => self.surface_loads(keyword, period, history, &mut stated),
-                    "DLOAD" => self.body_loads(keyword, period, history, &mut stated),
+                    "CLOAD" => self.forces(keyword, period, &mut stated),
+                    "DSLOAD" => self.surface_loads(keyword, period, &mut stated),
+                    "DLOAD" => self.body_loads(keyword, period, &mut stated),
+                    "INITIAL CONDITIONS" => {
+                        self.initial_conditions(keyword, procedure.is_dynamic, &mut stated);
+                    }
                     _ => {}
                 }
             }
         }
+        self.resolve_loads(history, &mut stated, procedure.period);
+        let frictions = self.changed_frictions(within);
         let ended = stated.ended(history);
-        let is_first = !initial.is_empty();
-        let table = self.table(name, &procedure, &stated, &ended, is_first);
+        let motions = self.motions(&stated, &ended, initial.is_some());
+        let mut table = self.table(name, &procedure, &stated, &ended, motions);
+        if !frictions.is_empty() {
+            table += &entries("friction", &frictions);
+        }
         self.steps += &table;
         for component in ended {
             history.prescribed.remove(&component);
@@ -116,7 +130,7 @@ impl<'a> Model<'a> {
         let targets = stated.prescribed.into_iter();
         history
             .prescribed
-            .extend(targets.map(|(key, (value, _))| (key, value)));
+            .extend(targets.map(|(key, of)| (key, of.reached)));
         Some(procedure.period.duration)
     }
 
@@ -130,7 +144,9 @@ impl<'a> Model<'a> {
             return None;
         }
         self.used.insert(keyword.line);
-        self.list_parameters(keyword, &["DIRECT", "CETOL"]);
+        // Solvers and tolerances of the increments change no meaning.
+        let known = ["DIRECT", "CETOL", "SOLVER", "HAFTOL", "NOHAF", "ALPHA"];
+        self.list_parameters(keyword, &known);
         let row = keyword.rows.first();
         let row = row.and_then(|row| numbers(&row.words)).unwrap_or_default();
         let at = |at: usize| row.get(at).copied().filter(|value| *value > 0.0);
@@ -155,16 +171,61 @@ impl<'a> Model<'a> {
             },
             increments: [first, smallest, largest].map(|size| size / duration),
             is_dynamic,
+            alpha: keyword
+                .parameter("ALPHA")
+                .and_then(striae_meshfile::finite)
+                .filter(|alpha| (-0.5..=0.0).contains(alpha)),
         })
     }
 
+    /// Lists the first step that takes displacements as small.
+    fn nonlinearity(&mut self, step: &Keyword<'_>) {
+        let is_large = step.parameter("NLGEOM").is_some() && !has(step, "NLGEOM", "NO");
+        if self.is_nonlinear.is_none() && !is_large {
+            let what = "*STEP without NLGEOM: displacements are not taken as small here";
+            self.list(step.line, what);
+        }
+        self.is_nonlinear = Some(is_large);
+    }
+
+    /// Friction that changes at the start of a step.
+    fn changed_frictions(&mut self, within: &[&'a Keyword<'a>]) -> Vec<String> {
+        let mut all = Vec::new();
+        for (at, keyword) in within.iter().enumerate() {
+            if keyword.name != "CHANGE FRICTION" {
+                continue;
+            }
+            self.used.insert(keyword.line);
+            self.list_parameters(keyword, &["INTERACTION"]);
+            let name = keyword.parameter("INTERACTION").unwrap_or_default();
+            let name = name.to_uppercase();
+            let law = match within.get(at + 1) {
+                Some(option) if option.name == "FRICTION" => self.friction(option),
+                _ => None,
+            };
+            let Some(law) = law else {
+                self.list(keyword.line, "*CHANGE FRICTION without a friction");
+                continue;
+            };
+            let pairs = self.pairs.iter().filter(|pair| pair.interaction == name);
+            let entries = pairs.map(|pair| format!("{{ pair = {}, {} }}", pair.name, law.text));
+            let entries: Vec<String> = entries.collect();
+            if entries.is_empty() {
+                let what = format!("*CHANGE FRICTION of `{name}`, which no pair has");
+                self.list(keyword.line, what);
+            }
+            all.extend(entries);
+        }
+        all
+    }
+
     fn table(
-        &mut self,
+        &self,
         name: &str,
         procedure: &Procedure,
         stated: &Stated,
         ended: &BTreeSet<Component>,
-        is_first: bool,
+        motions: Vec<String>,
     ) -> String {
         let [first, smallest, largest] = procedure.increments.map(number);
         let mut table = format!(
@@ -173,22 +234,27 @@ impl<'a> Model<'a> {
             number(procedure.period.duration)
         );
         if procedure.is_dynamic {
-            table += "dynamics = {}\n";
+            // Both methods have this spectral radius at infinite frequency.
+            let radius = procedure.alpha.map(|alpha| (1.0 + alpha) / (1.0 - alpha));
+            let radius = radius.map(|radius| format!(" spectral_radius = {} ", number(radius)));
+            table += &format!("dynamics = {{{}}}\n", radius.unwrap_or_default());
         }
-        if let Some(gravity) = &stated.gravity {
+        if let Some(gravity) = stated.gravity() {
             table += &format!("gravity = {gravity}\n");
         }
+        let [forces, pressures, tractions] = stated.load_entries(&self.bodies);
         let lists = [
+            ("velocity", stated.velocities(&self.bodies, &self.rigid)),
             ("release", self.releases(ended)),
             ("displacement", stated.displacements(&self.bodies)),
-            ("traction", stated.tractions.clone()),
-            ("pressure", stated.pressures.clone()),
-            ("rigid", self.motions(stated, ended, is_first)),
+            ("traction", tractions),
+            ("pressure", pressures),
+            ("force", forces),
+            ("rigid", motions),
         ];
         for (key, items) in lists {
             if !items.is_empty() {
-                let items = items.iter().map(|item| format!("    {item},\n"));
-                table += &format!("{key} = [\n{}]\n", items.collect::<String>());
+                table += &entries(key, &items);
             }
         }
         table
@@ -211,63 +277,10 @@ impl<'a> Model<'a> {
         };
         groups.into_iter().map(entry).collect()
     }
+}
 
-    /// Motions of rigid bodies: components without a condition are free.
-    fn motions(
-        &mut self,
-        stated: &Stated,
-        ended: &BTreeSet<Component>,
-        is_first: bool,
-    ) -> Vec<String> {
-        let mut all = Vec::new();
-        for at in 0..self.rigid.len() {
-            let rigid = &mut self.rigid[at];
-            let (mut curve, mut is_moved, mut is_freed) = (None, [false; 2], is_first);
-            for component in 0..6 {
-                let key = (Target::Rigid(at), component);
-                if ended.contains(&key) {
-                    rigid.held[component] = false;
-                    is_freed = true;
-                }
-                if let Some((value, along)) = stated.prescribed.get(&key) {
-                    rigid.held[component] = true;
-                    is_moved[component / 3] |= rigid.targets[component] != *value;
-                    rigid.targets[component] = *value;
-                    curve = curve.or(along.clone());
-                }
-            }
-            let mut keys = String::new();
-            let [x, y, z, rx, ry, rz] = rigid.targets;
-            if is_moved[0] {
-                keys += &format!(", displacement = {}", list([x, y, z].map(number)));
-            }
-            if is_moved[1] {
-                let degrees = [rx, ry, rz].map(|angle| number(angle.to_degrees()));
-                keys += &format!(", rotation = {}", list(degrees));
-            }
-            let words = ["x", "y", "z", "rx", "ry", "rz"];
-            let free = (0..6).filter(|component| !rigid.held[*component]);
-            let free: Vec<String> = free.map(|component| text(words[component])).collect();
-            if !free.is_empty() && (is_freed || is_moved != [false; 2]) {
-                keys += &format!(", free = {}", list(free));
-            }
-            for (key, from) in [("force", 0), ("torque", 3)] {
-                let of = |component: usize| stated.forces.get(&(at, from + component));
-                if (0..3).any(|component| of(component).is_some()) {
-                    let vector = [0, 1, 2].map(|component| {
-                        curve = curve
-                            .clone()
-                            .or(of(component).and_then(|(_, curve)| curve.clone()));
-                        number(of(component).map_or(0.0, |(value, _)| *value))
-                    });
-                    keys += &format!(", {key} = {}", list(vector));
-                }
-            }
-            if !keys.is_empty() {
-                let (name, curve) = (text(&self.rigid[at].name), curve_key(&curve));
-                all.push(format!("{{ surface = {name}{keys}{curve} }}"));
-            }
-        }
-        all
-    }
+/// A key with a list, an item a line.
+fn entries(key: &str, items: &[String]) -> String {
+    let items = items.iter().map(|item| format!("    {item},\n"));
+    format!("{key} = [\n{}]\n", items.collect::<String>())
 }

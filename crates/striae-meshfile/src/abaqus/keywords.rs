@@ -118,12 +118,14 @@ impl<'a> Keyword<'a> {
         }
     }
 
-    /// The rows, each joined with those that continue it.
-    pub(super) fn joined_rows(&self) -> Vec<Row<'a>> {
+    /// The rows, each joined with those that continue it until it has so many words.
+    pub(super) fn joined_rows(&self, words: usize) -> Vec<Row<'a>> {
         let mut joined: Vec<Row<'a>> = Vec::new();
         for row in &self.rows {
             match joined.last_mut() {
-                Some(last) if last.continued == Continued::OnNextLine => {
+                Some(last)
+                    if last.continued == Continued::OnNextLine && last.words.len() < words =>
+                {
                     last.words.extend(&row.words);
                     last.continued = row.continued;
                 }
@@ -150,6 +152,13 @@ impl<'a> Row<'a> {
             words: text.split(',').map(str::trim).collect(),
             continued,
         }
+    }
+
+    /// The row with so many words at most.
+    pub fn shortened(&self, words: usize) -> Self {
+        let mut row = self.clone();
+        row.words.truncate(words);
+        row
     }
 
     /// A row of a single word.

@@ -58,7 +58,7 @@ impl Lower {
         } else {
             starts(&LINES).then_some(1)
         };
-        for row in keyword.joined_rows() {
+        for row in keyword.joined_rows(usize::MAX) {
             let expected = "an element number and node numbers";
             let words = row.words.iter().filter(|word| !word.is_empty());
             let numbers = words.map(|word| parsed(row.line, word, expected));
@@ -89,6 +89,11 @@ impl Lower {
         let all = self.elements.iter();
         let facets = all.filter(|(_, element)| element.dimension == 2);
         facets.map(|(number, element)| (*number, element.line))
+    }
+
+    /// Returns whether a number is that of no element here.
+    pub(super) fn is_solid(&self, number: u64) -> bool {
+        !self.elements.contains_key(&number) && !self.ignored_numbers.contains(&number)
     }
 
     /// The faces that an element is, none where it is no facet.

@@ -1,8 +1,9 @@
 //! Material cards of an Abaqus file.
 //!
 //! The keywords below `*MATERIAL`, up to one that belongs to another part of the file, state
-//! its options. Those of [`cards`](crate::Card) are read; any other makes the material one that
-//! cannot be used, and is named. Constants may stand for one temperature only.
+//! its options. Those of [`cards`](crate::Card) are read. Those of heat, and others that leave
+//! stresses as they are without temperatures, are passed over and told as unused. Any other makes
+//! the material one that cannot be used, and is named. Constants may stand for one temperature only.
 
 use super::super::MeshFileFault;
 use super::super::cards::{Card, Elasticity, MaterialCard, Moduli};
@@ -12,28 +13,40 @@ use std::collections::BTreeSet;
 
 /// Keywords that belong to no material; so do those that end in `SECTION` or begin with `END`,
 /// `CONTACT` or `CONNECTOR`.
-const OTHERS: [&str; 38] = [
+const OTHERS: [&str; 56] = [
     "AMPLITUDE",
     "ASSEMBLY",
+    "BASELINE CORRECTION",
     "BOUNDARY",
+    "CHANGE FRICTION",
+    "CLEARANCE",
     "COUPLING",
+    "CYCLIC SYMMETRY MODEL",
     "DASHPOT",
+    "DESIGN VARIABLES",
     "DISTRIBUTING",
     "DISTRIBUTION",
     "DISTRIBUTION TABLE",
     "ELEMENT",
     "ELSET",
+    "EMBEDDED ELEMENT",
     "EQUATION",
+    "FIELD",
     "FILTER",
+    "FLUID BEHAVIOR",
+    "FLUID CAVITY",
     "FRICTION",
     "GAP",
     "HEADING",
+    "IMPERFECTION",
     "INITIAL CONDITIONS",
     "INSTANCE",
     "KINEMATIC",
+    "KINEMATIC COUPLING",
     "MASS",
     "MATERIAL",
     "MPC",
+    "NODAL THICKNESS",
     "NODE",
     "NSET",
     "ORIENTATION",
@@ -43,14 +56,40 @@ const OTHERS: [&str; 38] = [
     "PREPRINT",
     "RESTART",
     "RIGID BODY",
+    "ROTARY INERTIA",
+    "SHELL TO SOLID COUPLING",
     "SPRING",
     "STEP",
+    "SUBMODEL",
     "SURFACE",
     "SURFACE BEHAVIOR",
     "SURFACE INTERACTION",
+    "SYSTEM",
+    "TEMPERATURE",
     "TIE",
     "TIME POINTS",
     "TRANSFORM",
+    "USER ELEMENT",
+];
+
+/// Options that change no stress as long as temperatures do not change, and damping, which is
+/// told.
+const WITHOUT_STRESS: [&str; 15] = [
+    "CONDUCTIVITY",
+    "DAMPING",
+    "DEPVAR",
+    "DIELECTRIC",
+    "DIFFUSIVITY",
+    "ELECTRICAL CONDUCTIVITY",
+    "EXPANSION",
+    "HEAT GENERATION",
+    "INELASTIC HEAT FRACTION",
+    "JOULE HEAT FRACTION",
+    "LATENT HEAT",
+    "MAGNETIC PERMEABILITY",
+    "SOLUBILITY",
+    "SPECIFIC HEAT",
+    "USER OUTPUT VARIABLES",
 ];
 
 /// All materials of a file; `explain` puts into words why one cannot be used.
@@ -85,7 +124,7 @@ pub(super) fn lines(keywords: &[Keyword<'_>]) -> BTreeSet<usize> {
     let mut is_within = false;
     for keyword in keywords {
         is_within = keyword.name == "MATERIAL" || is_within && is_option(keyword);
-        if is_within {
+        if is_within && !is_passed_over(keyword) {
             lines.insert(keyword.line);
         }
     }
@@ -99,7 +138,12 @@ pub fn material_lines(keywords: &[Keyword<'_>], line: usize) -> Vec<usize> {
     let all = all
         .by_ref()
         .take_while(|(at, keyword)| *at == 0 || is_option(keyword));
-    all.map(|(_, keyword)| keyword.line).collect()
+    let read = all.filter(|(_, keyword)| !is_passed_over(keyword));
+    read.map(|(_, keyword)| keyword.line).collect()
+}
+
+fn is_passed_over(keyword: &Keyword<'_>) -> bool {
+    WITHOUT_STRESS.contains(&keyword.name.as_str())
 }
 
 fn is_option(keyword: &Keyword<'_>) -> bool {
@@ -118,7 +162,7 @@ fn card<'k>(
     let (mut density, mut elasticity, mut moduli) = (None, None, Moduli::LongTerm);
     let (mut hardening, mut relaxation) = (Vec::new(), Vec::new());
     let mut seen: Vec<&str> = Vec::new();
-    for option in options {
+    for option in options.filter(|option| !is_passed_over(option)) {
         let name = option.name.as_str();
         if seen.contains(&name) {
             return Err(option.fault("an option that the material does not have already"));

@@ -87,7 +87,7 @@ impl Names {
 
     /// Notes elements of the assembly itself.
     pub(super) fn own_elements(&mut self, keyword: &Keyword<'_>) -> Result<(), MeshFileFault> {
-        for row in keyword.joined_rows() {
+        for row in keyword.joined_rows(usize::MAX) {
             self.elements
                 .insert(parsed(row.line, row.words[0], "an element number")?);
         }

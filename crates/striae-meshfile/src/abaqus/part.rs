@@ -1,7 +1,5 @@
 //! A part of an Abaqus file: nodes, elements, sets and surfaces under its own numbers; or the
 //! whole in which parts have been placed.
-//!
-//! Longer than other files, as one type collects all that a part can hold.
 
 use super::super::collected::{Collected, FileElement, FileFace, missing, position};
 use super::super::lines::parsed;
@@ -21,10 +19,10 @@ use striae_mesh::{CellKind, NodeId, Vec3};
 pub(super) struct Part {
     nodes: BTreeMap<u64, Vec3>,
     elements: Vec<FileElement>,
-    node_sets: LabelSets,
-    element_sets: LabelSets,
-    lower: Lower,
-    surfaces: Surfaces,
+    pub(super) node_sets: LabelSets,
+    pub(super) element_sets: LabelSets,
+    pub(super) lower: Lower,
+    pub(super) surfaces: Surfaces,
     /// Element sets with their material.
     sections: Vec<(String, String)>,
     notes: Vec<String>,
@@ -39,7 +37,7 @@ pub(super) enum Use {
 }
 
 /// Faces by the label of their surface in capitals, with the label as it was first spelled.
-type Surfaces = BTreeMap<String, (String, Vec<(Place, FileFace)>)>;
+pub(super) type Surfaces = BTreeMap<String, (String, Vec<(Place, FileFace)>)>;
 
 impl Default for Part {
     fn default() -> Self {
@@ -102,7 +100,7 @@ impl Part {
         self.ask(&name);
         let expected = format!("an element number and {nodes} node numbers");
         keyword.refuse_input()?;
-        for row in keyword.joined_rows() {
+        for row in keyword.joined_rows(nodes + 1) {
             let numbers: Vec<u64> = row
                 .words
                 .iter()
@@ -184,50 +182,6 @@ impl Part {
         names.extend(&mut self.element_sets, name, keyword)
     }
 
-    /// Rows `element or element set, S1..S6`, or `SPOS`, `SNEG` of shells on the body; or, for a
-    /// surface of nodes, `node or node set`.
-    pub(super) fn read_surface(
-        &mut self,
-        keyword: &Keyword<'_>,
-        names: &Names,
-    ) -> Result<Use, MeshFileFault> {
-        let kind = keyword.parameter("TYPE").unwrap_or("ELEMENT");
-        if kind.eq_ignore_ascii_case("NODE") {
-            let name = keyword.required("NAME")?;
-            if self.node_sets.get(name).is_some() {
-                return Ok(Use::Nothing);
-            }
-            self.node_sets.name(name);
-            for row in &keyword.rows {
-                for node in names.members(&self.node_sets, row, row.words[0])? {
-                    self.node_sets.push(name, row.line, node);
-                }
-            }
-            return Ok(Use::Mesh);
-        }
-        if !kind.eq_ignore_ascii_case("ELEMENT") {
-            return Ok(Use::Nothing);
-        }
-        let mut faces = Vec::new();
-        for row in &keyword.rows {
-            let word = row.words.get(1).copied().unwrap_or_default();
-            let elements = names.members(&self.element_sets, row, row.words[0])?;
-            let place = Place::Line(row.line);
-            if ["SPOS", "SNEG"].contains(&word.to_uppercase().as_str()) {
-                let of_shells = elements.iter().flat_map(|shell| self.lower.faces(*shell));
-                faces.extend(of_shells.map(|face| (place, face)));
-                continue;
-            }
-            let side =
-                side(word).ok_or_else(|| row.fault("a face S1 to S6 of an element or set"))?;
-            let sides = elements.into_iter();
-            faces.extend(sides.map(|element| (place, FileFace::Side(element, side))));
-        }
-        let name = keyword.required("NAME")?;
-        self.surface(name).extend(faces);
-        Ok(Use::Mesh)
-    }
-
     /// The material of an element set; layers have several.
     pub(super) fn read_section(&mut self, keyword: &Keyword<'_>) -> Result<(), MeshFileFault> {
         let set = keyword.required("ELSET")?;
@@ -242,7 +196,7 @@ impl Part {
         Ok(())
     }
 
-    fn surface(&mut self, label: &str) -> &mut Vec<(Place, FileFace)> {
+    pub(super) fn surface(&mut self, label: &str) -> &mut Vec<(Place, FileFace)> {
         let surface = self.surfaces.entry(label.to_uppercase());
         let (_, faces) = surface.or_insert_with(|| (label.to_owned(), Vec::new()));
         faces
@@ -408,9 +362,4 @@ fn ordered(nodes: &[u64]) -> Vec<u64> {
         nodes[20..].rotate_left(1);
     }
     nodes
-}
-
-fn side(word: &str) -> Option<u8> {
-    let number: u8 = word.strip_prefix(['S', 's'])?.parse().ok()?;
-    (1..=6).contains(&number).then(|| number - 1)
 }

@@ -1,0 +1,141 @@
+//! Steps, boundary conditions and initial conditions.
+
+use super::{STEP, assert_listed, converted, made, model, with};
+use striae_mesh::Vec3;
+use striae_solve::model::{Mover, Procedure};
+
+#[test]
+fn the_four_numbers_of_a_step() {
+    let (_, listed, deck) = converted(&model(
+        "",
+        &STEP.replace("*STATIC", "*STATIC, DIRECT, SOLVER=PARDISO"),
+    ));
+    assert_listed(&listed, &[]);
+    let sizes = deck.model.steps[0].increments;
+    assert_eq!((sizes.initial, sizes.largest), (0.05, 0.05));
+    let (_, listed, _) = converted(&model(
+        "",
+        &STEP.replace("*STATIC", "*STATIC, STABILIZE=2e-4, RIKS"),
+    ));
+    assert_listed(&listed, &["*STATIC: parameter STABILIZE, RIKS"]);
+}
+
+#[test]
+fn small_displacements_are_told_once() {
+    let step = STEP.replace(", NLGEOM=YES", "");
+    let later = "*STEP\n*STATIC\n*END STEP\n";
+    let (_, listed, _) = converted(&model("", &format!("{step}{later}")));
+    assert_listed(&listed, &["*STEP without NLGEOM"]);
+}
+
+#[test]
+fn implicit_dynamics_has_the_spectral_radius_of_its_alpha() {
+    let (_, listed, deck) = converted(&model("", &STEP.replace("*STATIC", "*DYNAMIC, ALPHA=-0.2")));
+    assert_listed(&listed, &[]);
+    let Procedure::Dynamic { spectral_radius } = deck.model.steps[0].procedure else {
+        panic!("{:?}", deck.model.steps[0].procedure);
+    };
+    assert!(
+        (spectral_radius - 0.8 / 1.2).abs() < 1e-15,
+        "{spectral_radius}"
+    );
+}
+
+#[test]
+fn steps_of_other_kinds_are_listed_and_keep_what_stands_before_all_steps() {
+    let before = "*BOUNDARY\nBase-1.Low, PINNED\n";
+    let frequency = "*STEP, NAME=Modes, PERTURBATION\n*FREQUENCY\n10,\n*END STEP\n";
+    let step = STEP.replace("Base-1.Low, 1, 3\n", "");
+    let (_, listed, deck) = converted(&model("", &format!("{before}{frequency}{step}")));
+    let said = [
+        "*STEP: parameter PERTURBATION",
+        "*STEP without NLGEOM",
+        "*STEP `Modes`: no static or implicit dynamic step",
+        "*FREQUENCY of this step",
+    ];
+    assert_listed(&listed, &said);
+    let base = &deck.model.steps[0].displacements[0];
+    assert_eq!((base.body.0, base.numbers()), (0, [Some(0.0); 3]));
+    let explicit = STEP.replace("*STATIC", "*DYNAMIC, EXPLICIT");
+    let (_, made) = made(&model("", &explicit));
+    let said = "an explicit step; take *DYNAMIC without EXPLICIT";
+    assert!(
+        made.listed.iter().any(|line| line.contains(said)),
+        "{:?}",
+        made.listed
+    );
+}
+
+#[test]
+fn symmetries_hold_what_their_names_say() {
+    for (word, held) in [
+        ("XSYMM", [Some(0.0), None, None]),
+        ("YASYMM", [Some(0.0), None, Some(0.0)]),
+        ("ENCASTRE", [Some(0.0); 3]),
+    ] {
+        let step = with(&format!("*BOUNDARY\nBase-1.High, {word}\n"));
+        let (_, listed, deck) = converted(&model("", &step));
+        assert_listed(&listed, &[]);
+        let stated = &deck.model.steps[0].displacements;
+        let high = stated
+            .iter()
+            .find(|of| of.set.contains("High") && of.body.0 == 0);
+        assert_eq!(high.unwrap().numbers(), held, "{word}");
+    }
+}
+
+#[test]
+fn conditions_without_a_counterpart_are_listed() {
+    let more =
+        "*BOUNDARY, TYPE=ACCELERATION\nPad-1.High, 1, 1, 2.\n*BOUNDARY, FIXED\nPad-1.High, 1, 1
+*BOUNDARY, USER\nPad-1.High, 11, 11, 2.\n*TEMPERATURE\nPad-1.High, 20.\n";
+    let (_, listed, _) = converted(&model("", &with(more)));
+    let said = [
+        "*BOUNDARY, TYPE=ACCELERATION",
+        "*BOUNDARY: parameter FIXED",
+        "*BOUNDARY, FIXED: state the displacements",
+        "*BOUNDARY: parameter USER",
+        "*BOUNDARY `Pad-1.High, 11, 11, 2.`",
+        "*TEMPERATURE: there are no temperatures",
+    ];
+    assert_listed(&listed, &said);
+}
+
+#[test]
+fn some_nodes_in_turned_axes_are_listed() {
+    let turned =
+        "*NSET, NSET=Pair\nPad-1.5, Pad-1.6\n*TRANSFORM, NSET=Pair\n0., 1., 0., -1., 0., 0.\n";
+    let (_, listed, _) = converted(&model(turned, STEP));
+    let said = [
+        "*TRANSFORM",
+        "some nodes of `Pad-1.High` are in `Pair` of *TRANSFORM",
+    ];
+    assert_listed(&listed, &said);
+}
+
+#[test]
+fn initial_velocities_of_whole_bodies() {
+    let before = "*INITIAL CONDITIONS, TYPE=VELOCITY\nPad-1.All, 1, 2.\nPad-1.All, 3, -1.\n";
+    let nodes = "*NSET, NSET=Pad-1.All\nPad-1.Low, Pad-1.High\n";
+    let step = STEP.replace("*STATIC", "*DYNAMIC");
+    let (_, listed, deck) = converted(&model(nodes, &format!("{before}{step}")));
+    assert_listed(&listed, &[]);
+    let [velocity] = &deck.model.steps[0].velocities[..] else {
+        panic!("{:?}", deck.model.steps[0].velocities);
+    };
+    assert!(matches!(velocity.body, Mover::Deformable(body) if body.0 == 1));
+    assert_eq!(velocity.velocity, Vec3::new(2.0, 0.0, -1.0));
+    let (_, listed, _) = converted(&model(nodes, &format!("{before}{STEP}")));
+    assert_listed(
+        &listed,
+        &["*INITIAL CONDITIONS, TYPE=VELOCITY before a static step"],
+    );
+    let some = before.replace("Pad-1.All", "Pad-1.Low");
+    let (_, listed, _) = converted(&model("", &format!("{some}{step}")));
+    let said = "*INITIAL CONDITIONS `Pad-1.Low, 1, 2.`: velocities are those of whole bodies";
+    assert_eq!(listed.len(), 2);
+    assert!(listed[0].ends_with(said), "{listed:?}");
+    let stress = "*INITIAL CONDITIONS, TYPE=STRESS\nPad-1.All, 1., 1., 1.\n";
+    let (_, listed, _) = converted(&model("", &format!("{stress}{STEP}")));
+    assert_listed(&listed, &["*INITIAL CONDITIONS, TYPE=STRESS"]);
+}
