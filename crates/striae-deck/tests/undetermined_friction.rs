@@ -382,3 +382,59 @@ fn a_side_that_is_prescribed_wholly_leaves_all_directions() {
     let slipping = slipping(&state);
     assert!(slipping >= 12, "{slipping}");
 }
+
+/// A block whose lower nodes are drawn along `y` and pushed sideways by a load, which friction alone
+/// holds: it slips where the resultant of both points, `sin = T/(mu N)`, in every increment, also in
+/// the first one after a pause.
+#[test]
+fn a_drawn_block_gives_way_sideways_as_the_law_has_it() {
+    let deck = r#"
+title = "drawn block with a side load"
+[[material]]
+name = "steel"
+law = "neo-hookean"
+youngs_modulus = 210000
+poissons_ratio = 0.3
+[[body]]
+name = "block"
+material = "steel"
+mesh = { generator = "block", size = [1, 1, 1], divisions = [1, 1, 1] }
+[[rigid]]
+name = "floor"
+plane = { point = [0, 0, 0], normal = [0, 0, 1] }
+[[pair]]
+name = "sole"
+a = { body = "block", facets = "zmin" }
+b = { rigid = "floor" }
+friction = { law = "coulomb", mu = 0.2 }
+[[step]]
+name = "press"
+increments = 2
+displacement = [{ body = "block", nodes = "zmin", x = 0, y = 0 }]
+pressure = [{ body = "block", facets = "zmax", value = 100 }]
+[[step]]
+name = "draw"
+increments = { initial = 0.05, smallest = 1e-3, largest = 0.4 }
+release = [{ body = "block", nodes = "zmin", components = ["x"] }]
+displacement = [{ body = "block", nodes = "zmin", y = 1 }]
+traction = [{ body = "block", facets = "zmax", value = [SIDE, 0, 0], curve = "constant" }]
+[[curve]]
+name = "constant"
+points = [[0, 1], [1, 1]]
+"#;
+    for side in [0.0, 1.0, 5.0] {
+        let (forces, state) = solved(&deck.replace("SIDE", &format!("{side}")));
+        let force = forces.last().unwrap()[0];
+        assert!((force.z - 100.0).abs() < 0.1, "{force}");
+        // `T` of the ends in all increments of the second step.
+        for forces in &forces[3..] {
+            let slip = forces[0].xy().norm() / forces[0].z;
+            assert!((slip - 0.2).abs() < 1e-4, "{slip}");
+        }
+        let sine = side / (0.2 * force.z);
+        let expected = sine / (1.0 - sine * sine).sqrt();
+        let nodes = &state.positions[..4];
+        let way = nodes.iter().map(|x| x.x).sum::<f64>() / 4.0 - 0.5;
+        assert!((way - expected).abs() < 2e-3, "{way} {expected}");
+    }
+}

@@ -74,7 +74,7 @@ pub(super) fn tangential(
         z,
     };
     match iteration {
-        Iteration::First => node.first(),
+        Iteration::First => node.first(r),
         Iteration::Later { slip_weight } => node.later(r * slip_weight),
         Iteration::Corrected(corrector) => node.corrected(r, corrector),
     }
@@ -93,12 +93,12 @@ struct Friction<'a> {
 
 impl Friction<'_> {
     /// In the first iteration: nodes that slipped continue to slip.
-    fn first(&self) -> (Status, [TangentialRow; 2]) {
+    fn first(&self, r: f64) -> (Status, [TangentialRow; 2]) {
         let [z1, z2] = self.z.map(|z| z.re);
         // Only nodes still near the slip surface continue to slip; one far inside has been
         // unloaded.
         if self.state.node.slipped && z1.hypot(z2) > 0.5 * self.least_radius() {
-            (Status::Slip, self.continued())
+            (Status::Slip, self.continued(r))
         } else {
             (Status::Stick, self.stick())
         }
@@ -228,8 +228,9 @@ impl Friction<'_> {
     }
 
     /// Slip that continues in the direction of `z`: `|z| = varpi rho` and no slip across, or no `z`
-    /// across where the node cannot move that way.
-    fn continued(&self) -> [TangentialRow; 2] {
+    /// across where the node cannot move that way. Where prescribed motions drive it and friction
+    /// alone may hold it across, it resists by `r`.
+    fn continued(&self, r: f64) -> [TangentialRow; 2] {
         let z = &self.z;
         let radius = self.continued_radius();
         let (_, direction) = polar(Vector2::new(z[0].re, z[1].re));
@@ -237,7 +238,11 @@ impl Friction<'_> {
         let across = |v: &[Q; 2]| Q::combination([(direction.x, &v[1]), (-direction.y, &v[0])]);
         let second = match self.mobility {
             Mobility::Free => self.resting(across(&self.state.turned)),
-            Mobility::Along(_) | Mobility::Held | Mobility::Driven => traction(across(z)),
+            Mobility::Along(_) | Mobility::Held => traction(across(z)),
+            Mobility::Driven => {
+                let [z, turned] = [z, &self.state.turned].map(across);
+                traction(Q::combination([(1.0, &z), (-r, &turned)]))
+            }
         };
         [traction(along), second]
     }
