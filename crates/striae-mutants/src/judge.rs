@@ -34,6 +34,8 @@ pub enum Kind {
     NoPlace,
     /// A message is about the program's own numbers.
     Raw,
+    /// The input takes too long.
+    Slow,
     /// A run is refused after its check has found nothing.
     Disagreement,
 }
