@@ -2,7 +2,7 @@
 //!
 //! Builds `striae-fuzz` of `crates/striae-mutants` with libFuzzer, runs every target for some
 //! time, two at a time, and prints a table. Third-party crates are those of other builds; only the
-//! crates of the workspace are compiled again, by `coverage.sh`. A C++ compiler is needed.
+//! crates of the workspace are compiled again, by `instrumented.sh`. A C++ compiler is needed.
 //!
 //! ```text
 //! --seconds N       time of each target; 60
@@ -102,7 +102,7 @@ fn place() -> Result<Place, Fault> {
         let path = path.to_owned();
         move |cause| Fault::Unreadable { path, cause }
     };
-    let script = Path::new("crates/striae-mutants/coverage.sh");
+    let script = Path::new("crates/striae-mutants/instrumented.sh");
     let script = fs::canonicalize(script).map_err(unreadable(script))?;
     let arguments = [
         "build",
