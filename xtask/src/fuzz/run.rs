@@ -48,8 +48,8 @@ pub fn searched(place: &Place, target: &str, time: Duration) -> Result<Outcome, 
         ..Outcome::default()
     };
     for start in 0..STARTS {
-        let left = time.saturating_sub(begun.elapsed()).as_secs();
-        if left == 0 {
+        let left = time.saturating_sub(begun.elapsed()).as_secs_f64().ceil();
+        if left == 0.0 {
             break;
         }
         let log = place.of("logs", &format!("{target}-{start}"));
