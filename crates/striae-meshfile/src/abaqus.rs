@@ -143,10 +143,8 @@ struct Known<'a> {
 impl<'a> Reader<'a> {
     /// Reads all keywords of a file.
     fn of(keywords: &'a [Keyword<'a>]) -> Result<Self, MeshFileFault> {
-        let instances = keywords.iter();
-        let instances = instances.filter(|keyword| keyword.name == "INSTANCE");
         let mut reader = Self {
-            names: Names::of(instances.count()),
+            names: Names::of(keywords),
             ..Self::default()
         };
         for keyword in keywords {
@@ -271,7 +269,7 @@ impl<'a> Reader<'a> {
 
     fn read_set(&mut self, keyword: &Keyword<'_>) -> Result<(), MeshFileFault> {
         let names = match self.scope {
-            Scope::Part(_) | Scope::Instance(..) => Names::default(),
+            Scope::Part(_) | Scope::Instance(..) => self.names.of_part(),
             Scope::Outside | Scope::Assembly => self.names.for_keyword(keyword)?,
         };
         let part = self.part();
