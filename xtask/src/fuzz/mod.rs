@@ -53,7 +53,7 @@ struct Options {
     task: Task,
 }
 
-/// What is done with the targets.
+/// Treatment of the targets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Task {
     Search,

@@ -19,7 +19,7 @@ const ADDRESSES: u64 = 1000 * MEMORY + 2_000_000;
 /// Wall time after which an input is given up, in seconds; the target counts processor time.
 const PATIENCE: u64 = 60;
 
-/// What has become of a target.
+/// Counts and findings of a target.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub struct Outcome {
     /// Its name.

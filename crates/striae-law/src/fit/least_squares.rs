@@ -23,7 +23,7 @@ use nalgebra::{DMatrix, DVector};
 
 /// Least eigenvalue of the scaled `A^T A` of measurements that determine `q`.
 const DETERMINED: f64 = 1e-9;
-/// What a bound may lack over `m`.
+/// Shortfall of a bound over `m` that is round-off.
 const MET: f64 = 1e-9;
 /// Part of a bound that is not one of the active ones, below which it depends on them.
 const DEPENDENT: f64 = 1e-10;
@@ -141,7 +141,6 @@ fn bounded(mut q: DVector<f64>, inverse: &DMatrix<f64>, G: &DMatrix<f64>, m: f64
 }
 
 #[cfg(test)]
-#[allow(non_snake_case)]
 mod tests {
     use super::*;
 
@@ -156,6 +155,7 @@ mod tests {
     /// At the minimum the gradient is a sum of rows of active bounds, with factors that are not
     /// negative: no direction in which they hold leads down.
     #[test]
+    #[allow(non_snake_case)]
     fn bounds_are_met_and_no_way_leads_further_down() {
         let G = around(60);
         let A = DMatrix::from_row_slice(3, 3, &[1.0, 0.2, 0.0, 0.3, 1.0, 0.9, 0.1, 0.0, 2.0]);
@@ -180,6 +180,7 @@ mod tests {
 
     /// Rows that hardly differ in length take turns many thousand times where each is met alone.
     #[test]
+    #[allow(non_snake_case)]
     fn nearly_dependent_bounds_take_some_steps() {
         let G = around(720);
         let A = DMatrix::from_row_slice(3, 3, &[1.0, 1.0, 1.0, 1.0, 1.001, 1.0, 1.0, 1.0, 1.002]);
