@@ -218,13 +218,14 @@ impl<'a> Reader<'a> {
             Scope::Instance(keyword, placement) => {
                 self.scope = Scope::Assembly;
                 let part = std::mem::take(&mut self.current);
-                self.whole.place(&part, &placement);
-                if placement.prefix.is_empty() {
-                    return Ok(());
-                }
-                if !part.has_numbers_of_instances() {
+                let several = !placement.prefix.is_empty();
+                if several && !part.has_numbers_of_instances() {
                     let expected = format!("numbers below {}", 1_u64 << NUMBER_BITS);
                     return Err(keyword.fault(&expected));
+                }
+                self.whole.place(&part, &placement);
+                if !several {
+                    return Ok(());
                 }
                 let name = keyword.required("NAME")?;
                 self.whole

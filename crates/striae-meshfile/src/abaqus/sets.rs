@@ -44,6 +44,12 @@ impl LabelSets {
         set.map(|set| set.members.as_slice())
     }
 
+    /// Members of all sets.
+    pub(super) fn members(&self) -> impl Iterator<Item = u64> {
+        let sets = self.sets.values();
+        sets.flat_map(|set| set.members.iter().map(|(_, member)| *member))
+    }
+
     /// All labels as they were first spelled.
     pub(super) fn labels(&self) -> Vec<String> {
         self.sets.values().map(|set| set.label.clone()).collect()

@@ -321,3 +321,24 @@ fn cells_of_higher_order_are_divided() {
         .for_each(|cell| cell[20..].rotate_right(1));
     divided(&linear, &abaqus::body(&whole.abaqus("I")).unwrap());
 }
+
+#[test]
+fn nodes_are_added_beside_the_largest_number_there_is() {
+    let edges = [
+        [0, 1],
+        [1, 2],
+        [2, 0],
+        [3, 4],
+        [4, 5],
+        [5, 3],
+        [0, 3],
+        [1, 4],
+        [2, 5],
+    ];
+    let linear = block(CellKind::Wedge);
+    let whole = written::Whole::new(&linear, &edges, &[], false);
+    let text = whole.abaqus("") + "*NODE\n18446744073709551615, 9., 9., 9.\n";
+    let mesh = body(&text).unwrap();
+    assert_eq!(mesh.element_count(), 8 * linear.element_count());
+    assert!((mesh.volume() - linear.volume()).abs() < 1e-12);
+}
