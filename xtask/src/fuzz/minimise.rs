@@ -1,6 +1,6 @@
 //! The corpus of the repository, made as small as it can be.
 
-use std::{fs, path::Path};
+use std::{cmp::Reverse, fs, path::Path};
 
 use super::{
     Place,
@@ -8,8 +8,9 @@ use super::{
 };
 use crate::fault::Fault;
 
-/// Bytes that all inputs of a target may have; the smallest come first.
-const SIZE: u64 = 40_000;
+/// Inputs that are kept of a target, and bytes that they may have together.
+const COUNT: usize = 48;
+const SIZE: usize = 40_000;
 
 /// Replaces the corpus of a target by a least choice of all inputs so far.
 ///
@@ -25,7 +26,7 @@ pub fn minimised(place: &Place, target: &str) -> Result<(), Fault> {
         fs::create_dir_all(folder).map_err(unreadable(folder))?;
     }
     let folders = [&chosen, &seeds, &corpus, &kept].map(|path| path.display().to_string());
-    let mut words = vec!["-merge=1", "-use_counters=0", "-use_cmp=0"];
+    let mut words = vec!["-set_cover_merge=1", "-use_counters=0", "-use_cmp=0"];
     words.extend(folders.iter().map(String::as_str));
     let log = place.of("logs", &format!("{target}-minimise"));
     if !started(place, target, &log, &words)? {
@@ -34,20 +35,22 @@ pub fn minimised(place: &Place, target: &str) -> Result<(), Fault> {
     let seeds: Vec<Vec<u8>> = files(&seeds)?.into_iter().map(|(_, bytes)| bytes).collect();
     let mut inputs = files(&chosen)?;
     inputs.retain(|(_, bytes)| !seeds.contains(bytes));
-    inputs.sort_by_key(|(name, bytes)| (bytes.len(), name.clone()));
+    // Large inputs tell most; names are hashes.
+    inputs.sort_by_key(|(name, bytes)| (Reverse(bytes.len()), name.clone()));
     fs::remove_dir_all(&kept).map_err(unreadable(&kept))?;
     fs::create_dir_all(&kept).map_err(unreadable(&kept))?;
-    let mut size = 0;
-    let mut count = 0;
-    for (name, bytes) in &inputs {
-        size += bytes.len() as u64;
-        if size > SIZE {
-            break;
-        }
-        count += 1;
+    let mut left = SIZE;
+    let fits = |(_, bytes): &&(String, Vec<u8>)| {
+        let fits = bytes.len() <= left;
+        left -= if fits { bytes.len() } else { 0 };
+        fits
+    };
+    let fitting: Vec<_> = inputs.iter().filter(fits).take(COUNT).collect();
+    for (name, bytes) in &fitting {
         let path = kept.join(&name[..name.len().min(12)]);
         fs::write(&path, bytes).map_err(unreadable(&path))?;
     }
+    let count = fitting.len();
     println!("{target}: {count} of {} inputs kept", inputs.len());
     Ok(())
 }

@@ -90,7 +90,7 @@ pub fn started(place: &Place, target: &str, log: &Path, own: &[&str]) -> Result<
         .arg(format!("-rss_limit_mb={MEMORY}"))
         .arg(format!("-timeout={PATIENCE}"))
         .args(["-print_final_stats=1", "-use_value_profile=0"]);
-    if !own.iter().any(|word| word.starts_with("-merge")) {
+    if !own.iter().any(|word| word.contains("merge=")) {
         let own = Path::new("crates/striae-mutants/corpus/fuzz").join(target);
         command.args([corpus, seeds, own]);
     }
