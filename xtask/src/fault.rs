@@ -63,6 +63,9 @@ pub enum Fault {
     /// The suite of other programs' problems cannot be read, or came out as nothing explains.
     #[error("{0}")]
     Suite(String),
+    /// Inputs were found that fail.
+    #[error("{0} inputs fail; they are in target/fuzz/findings")]
+    Fuzz(usize),
     /// Scenes came out wrong.
     #[error("{count} of {of} scenes came out wrong")]
     Scenes {

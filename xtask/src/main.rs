@@ -13,6 +13,7 @@
 //! | `endurance` | runs that are killed, interrupted, short of disk, damaged; see [`endurance`] |
 //! | `mpi` | the feature `petsc` on one to four ranks; see [`mpi`] |
 //! | `mutants` | damaged decks and files; see `crates/striae-mutants` |
+//! | `fuzz` | the targets of `mutants` under libFuzzer; see [`fuzz`] |
 //! | `bench` | times of parts and of whole runs; see `crates/striae-bench/README.md` |
 //!
 //! Exit codes: 0 when all is well, 1 when a check failed, 2 for an unknown task.
@@ -26,6 +27,7 @@ mod check;
 mod decks;
 mod endurance;
 mod fault;
+mod fuzz;
 mod mpi;
 mod python;
 mod scenes;
@@ -33,7 +35,7 @@ mod suite;
 
 use std::{env, process::ExitCode};
 
-const USAGE: &str = "usage: cargo xtask check | python | borders | scenes [OPTIONS] | suite [OPTIONS] | report-test | book | endurance | mpi [--all] [PARTS] | mutants [OPTIONS] | bench [ARGUMENTS]";
+const USAGE: &str = "usage: cargo xtask check | python | borders | scenes [OPTIONS] | suite [OPTIONS] | report-test | book | endurance | mpi [--all] [PARTS] | mutants [OPTIONS] | fuzz [OPTIONS] | bench [ARGUMENTS]";
 
 fn main() -> ExitCode {
     let tasks: Vec<String> = env::args().skip(1).collect();
@@ -49,6 +51,7 @@ fn main() -> ExitCode {
         ["endurance", ..] => endurance::endurance(&tasks[1..]),
         ["mpi", ..] => mpi::check(&tasks[1..]),
         ["mutants", ..] => check::mutants(&tasks[1..]),
+        ["fuzz", ..] => fuzz::fuzz(&tasks[1..]),
         ["bench", ..] => check::bench(&tasks[1..]),
         _ => {
             eprintln!("{USAGE}");

@@ -15,6 +15,9 @@ pub const SMALL_SCALED_JACOBIAN: f64 = 0.05;
 /// Number of elements that [`Quality::poorest`] lists.
 pub const POOREST: usize = 5;
 
+/// Height of an element over its largest coordinate from which on its strain has digits.
+const ROUND_OFF: f64 = 64.0 * f64::EPSILON;
+
 /// Shape of all elements of a mesh.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Quality {
@@ -26,7 +29,7 @@ pub struct Quality {
     pub poorest: Vec<(ElementId, f64)>,
     /// Smallest Jacobian determinant over corners and Gauss points.
     pub smallest_determinant: f64,
-    /// Elements with a determinant that is not positive at a corner or Gauss point.
+    /// Elements with a determinant that is not positive at a corner or Gauss point, or is round-off.
     pub inverted: Vec<ElementId>,
     /// Elements not inverted, but with a scaled Jacobian below [`SMALL_SCALED_JACOBIAN`].
     pub slivers: Vec<ElementId>,
@@ -89,8 +92,9 @@ impl Mesh {
     /// [`MeshError::Inverted`] names the first element that has not.
     pub fn check_shape(&self) -> Result<(), MeshError> {
         let mut inverted = self.numbered().filter_map(|(element, kind, nodes)| {
-            let determinant = smallest_determinant(kind, &self.at(nodes));
-            (!is_positive(determinant)).then_some((element, determinant))
+            let corners = self.at(nodes);
+            let determinant = smallest_determinant(kind, &corners);
+            (!has_volume(kind, determinant, &corners)).then_some((element, determinant))
         });
         match inverted.next() {
             None => Ok(()),
@@ -152,7 +156,7 @@ impl Quality {
     fn include(&mut self, element: ElementId, kind: CellKind, corners: &[Vec3]) {
         let determinant = smallest_determinant(kind, corners);
         let scaled = scaled_jacobian(kind, corners);
-        if !is_positive(determinant) {
+        if !has_volume(kind, determinant, corners) {
             self.inverted.push(element);
         } else if scaled < SMALL_SCALED_JACOBIAN {
             self.slivers.push(element);
@@ -229,8 +233,13 @@ fn minimum(a: f64, b: f64) -> f64 {
     if a.is_nan() || a < b { a } else { b }
 }
 
-fn is_positive(value: f64) -> bool {
-    value > 0.0
+/// True if a determinant can be divided by, and is positive beyond round-off: the height over the
+/// largest parallelogram of edges beyond that of the positions.
+fn has_volume(kind: CellKind, determinant: f64, corners: &[Vec3]) -> bool {
+    let reach = corners.iter().map(Vec3::amax).fold(0.0, f64::max);
+    let areas = edges(kind, corners).flat_map(|[a, b, c]| [a.cross(&b), b.cross(&c), c.cross(&a)]);
+    let area = areas.map(|area| area.amax()).fold(0.0, f64::max);
+    determinant.is_normal() && determinant > ROUND_OFF * reach * area
 }
 
 #[cfg(test)]
@@ -306,6 +315,35 @@ mod tests {
         ));
         let corners = cube().map(|x| x + Vec3::x() * (30.0 * x.z));
         assert_eq!(hexahedron(corners).quality().slivers, [ElementId(0)]);
+    }
+
+    #[test]
+    fn elements_flat_to_round_off_are_degenerate_and_thin_ones_are_not() {
+        let of = |size: [f64; 3]| {
+            let mesh = hexahedron(cube().map(|x| x.component_mul(&Vec3::from(size))));
+            mesh.check_shape()
+        };
+        for thin in [
+            [1.0, 1.0, 1e-12],
+            [1.0, 1e-12, 1e-12],
+            [1e-90; 3],
+            [1e90; 3],
+        ] {
+            assert_eq!(of(thin), Ok(()), "{thin:?}");
+        }
+        for flat in [
+            [1.0, 1.0, 1e-309],
+            [1.0, 1.0, 1e-15],
+            [1e-105; 3],
+            [1e105; 3],
+        ] {
+            assert!(
+                matches!(of(flat), Err(MeshError::Inverted { .. })),
+                "{flat:?}"
+            );
+        }
+        let far = hexahedron(cube().map(|x| x * 1e-9 + Vec3::repeat(1e6)));
+        assert!(far.check_shape().is_err());
     }
 
     #[test]

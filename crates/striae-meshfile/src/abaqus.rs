@@ -144,10 +144,8 @@ struct Known<'a> {
 impl<'a> Reader<'a> {
     /// Reads all keywords of a file.
     fn of(keywords: &'a [Keyword<'a>]) -> Result<Self, MeshFileFault> {
-        let instances = keywords.iter();
-        let instances = instances.filter(|keyword| keyword.name == "INSTANCE");
         let mut reader = Self {
-            names: Names::of(instances.count()),
+            names: Names::of(keywords),
             ..Self::default()
         };
         for keyword in keywords {
@@ -225,13 +223,14 @@ impl<'a> Reader<'a> {
             Scope::Instance(keyword, placement) => {
                 self.scope = Scope::Assembly;
                 let part = std::mem::take(&mut self.current);
-                self.whole.place(&part, &placement);
-                if placement.prefix.is_empty() {
-                    return Ok(());
-                }
-                if !part.has_numbers_of_instances() {
+                let several = !placement.prefix.is_empty();
+                if several && !part.has_numbers_of_instances() {
                     let expected = format!("numbers below {}", 1_u64 << NUMBER_BITS);
                     return Err(keyword.fault(&expected));
+                }
+                self.whole.place(&part, &placement);
+                if !several {
+                    return Ok(());
                 }
                 let name = keyword.required("NAME")?;
                 self.whole
@@ -276,7 +275,7 @@ impl<'a> Reader<'a> {
 
     fn read_set(&mut self, keyword: &Keyword<'_>) -> Result<(), MeshFileFault> {
         let names = match self.scope {
-            Scope::Part(_) | Scope::Instance(..) => Names::default(),
+            Scope::Part(_) | Scope::Instance(..) => self.names.of_part(),
             Scope::Outside | Scope::Assembly => self.names.for_keyword(keyword)?,
         };
         let part = self.part();

@@ -73,6 +73,16 @@ pub(super) struct Divided {
 }
 
 impl FileFace {
+    /// The largest number in it.
+    pub(super) fn largest(self) -> u64 {
+        let largest = |nodes: &[u64]| nodes.iter().copied().fold(0, u64::max);
+        match self {
+            Self::Corners(corners) => largest(&corners),
+            Self::Eight(corners, on) => largest(&corners).max(largest(&on)),
+            Self::Side(element, _) => element,
+        }
+    }
+
     /// The face where numbers are raised.
     pub(super) fn raised(self, by: u64) -> Self {
         let all = |nodes: [u64; 4]| nodes.map(|node| node + by);

@@ -62,7 +62,9 @@ impl Middles {
     pub(super) fn beside(nodes: &BTreeMap<u64, Vec3>) -> Self {
         Self {
             known: HashMap::new(),
-            next: nodes.last_key_value().map_or(0, |(number, _)| number + 1),
+            next: nodes
+                .last_key_value()
+                .map_or(0, |(number, _)| number.wrapping_add(1)),
         }
     }
 
@@ -73,10 +75,12 @@ impl Middles {
 
     /// A node at a place.
     fn add(&mut self, at: Vec3, nodes: &mut BTreeMap<u64, Vec3>) -> u64 {
-        let number = self.next;
-        self.next += 1;
-        nodes.insert(number, at);
-        number
+        // Behind the last number, or from 0 on where that is the largest there is.
+        while nodes.contains_key(&self.next) {
+            self.next = self.next.wrapping_add(1);
+        }
+        nodes.insert(self.next, at);
+        self.next
     }
 
     /// Notes the middles that a cell brings along.

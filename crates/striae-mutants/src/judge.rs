@@ -34,6 +34,8 @@ pub enum Kind {
     NoPlace,
     /// A message is about the program's own numbers.
     Raw,
+    /// The input takes too long.
+    Slow,
     /// A run is refused after its check has found nothing.
     Disagreement,
 }
@@ -150,14 +152,30 @@ const RAW: [&str; 5] = [
     "matrix",
 ];
 
-/// Refuses messages about unknowns by number and the like.
+/// Refuses messages about unknowns by number and the like; what they quote is the user's.
 fn worded(message: &str) -> Result<(), Finding> {
-    let numbered = message
+    let own: String = message.split('`').step_by(2).collect();
+    let numbered = own
         .split("unknown ")
         .skip(1)
         .any(|rest| rest.starts_with(|c: char| c.is_ascii_digit()));
-    match numbered || RAW.iter().any(|raw| message.contains(raw)) {
+    match numbered || RAW.iter().any(|raw| own.contains(raw)) {
         true => failed(Kind::Raw, message),
         false => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn messages_may_quote_any_words_and_use_their_own() {
+        assert_eq!(
+            worded("line 3: expected a number, found `unknown 45`"),
+            Ok(())
+        );
+        assert!(worded("`a` needs unknown 45").is_err());
+        assert!(worded("`a` has a singular matrix").is_err());
     }
 }

@@ -17,8 +17,19 @@ pub enum Form {
     Binary,
 }
 
+impl Form {
+    /// The form of a file: texts have no control characters.
+    pub fn of(bytes: &[u8]) -> Self {
+        let control = |byte: &u8| *byte < 0x20 && !byte.is_ascii_whitespace();
+        match bytes.iter().any(control) {
+            true => Self::Binary,
+            false => Self::Text,
+        }
+    }
+}
+
 /// Values that take the place of others.
-const VALUES: [&str; 50] = [
+pub(crate) const VALUES: [&str; 50] = [
     "true",
     "-1",
     "0",
@@ -168,7 +179,7 @@ fn scaled(token: &[u8], random: &mut Random) -> Vec<u8> {
 }
 
 /// Words, quoted texts and numbers as a whole, everything else by byte.
-fn tokens(bytes: &[u8]) -> Vec<Vec<u8>> {
+pub(crate) fn tokens(bytes: &[u8]) -> Vec<Vec<u8>> {
     let mut tokens: Vec<Vec<u8>> = Vec::new();
     let mut in_word = false;
     for &byte in bytes {

@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use striae::output::checkpoint::FILE;
+
 use crate::mutation::Form;
 
 /// A reader of input.
@@ -52,6 +54,26 @@ impl Target {
             Self::Convert => "convert",
             Self::Checkpoint => "checkpoint",
             Self::Measurements => "measurements",
+        }
+    }
+
+    /// Bytes as a file of the target; their beginning decides between two endings.
+    pub fn sample(self, bytes: &[u8]) -> Sample {
+        let name = match self {
+            Self::Deck => "deck.toml",
+            Self::Gmsh => "mesh.msh",
+            Self::Abaqus | Self::Convert => "mesh.inp",
+            Self::Vtk if bytes.trim_ascii_start().starts_with(b"<") => "mesh.vtu",
+            Self::Vtk => "mesh.vtk",
+            Self::Stl => "tool.stl",
+            Self::Checkpoint => FILE,
+            Self::Measurements => "forces.csv",
+        };
+        Sample {
+            name: name.into(),
+            form: Form::of(bytes),
+            base: corpus().join("decks"),
+            bytes: bytes.to_vec(),
         }
     }
 
@@ -116,6 +138,16 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
+/// The corpus.
+fn corpus() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("corpus")
+}
+
+/// The description of all keys of decks.
+pub fn schema() -> Vec<u8> {
+    std::fs::read(root().join("docs/deck.schema.json")).expect("a file of the repository")
+}
+
 /// A deck of few elements, for checkpoints.
 pub fn small_deck() -> PathBuf {
     root().join("crates/striae/src/simulation/tests/quasi-static.toml")
@@ -123,7 +155,7 @@ pub fn small_deck() -> PathBuf {
 
 /// The files of a target, in the order of their names; those of checkpoints are made by runs.
 pub fn samples(target: Target) -> Vec<Sample> {
-    let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("corpus");
+    let corpus = corpus();
     match target {
         Target::Deck => {
             let others = DECKS.iter().map(|path| root().join(path));
@@ -142,12 +174,21 @@ pub fn samples(target: Target) -> Vec<Sample> {
 
 /// Inputs that once failed, with the targets that they are for: `TARGET-WORD.ENDING`.
 pub fn regressions() -> Vec<(Target, Sample)> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("corpus/regressions");
-    let samples = read(listing(&folder)).into_iter();
+    let samples = read(listing(&corpus().join("regressions"))).into_iter();
     let named = samples.map(|sample| {
         let target = sample.name.split('-').next().unwrap_or_default();
         let target = Target::ALL.into_iter().find(|of| of.name() == target);
         (target.expect("begins with a target"), sample)
+    });
+    named.collect()
+}
+
+/// Inputs of a target that libFuzzer found to reach code of their own.
+pub fn found(target: Target) -> Vec<Sample> {
+    let samples = read(listing(&corpus().join("fuzz").join(target.name()))).into_iter();
+    let named = samples.map(|sample| Sample {
+        name: format!("{}/{}", target.name(), sample.name),
+        ..target.sample(&sample.bytes)
     });
     named.collect()
 }
@@ -163,17 +204,13 @@ fn listing(folder: &Path) -> Vec<PathBuf> {
 fn read(paths: Vec<PathBuf>) -> Vec<Sample> {
     let samples = paths.into_iter().map(|path| {
         let bytes = std::fs::read(&path).expect("a file of the corpus");
-        let control = |byte: &u8| *byte < 0x20 && !byte.is_ascii_whitespace();
         Sample {
             name: path
                 .file_name()
                 .unwrap_or_default()
                 .to_string_lossy()
                 .into(),
-            form: match bytes.iter().any(control) {
-                true => Form::Binary,
-                false => Form::Text,
-            },
+            form: Form::of(&bytes),
             base: path.parent().unwrap_or(Path::new("")).to_owned(),
             bytes,
         }

@@ -39,6 +39,11 @@ impl Mutants {
         }
     }
 
+    /// The files of a target.
+    pub fn samples(&self, target: Target) -> &[Sample] {
+        &self.samples[&target]
+    }
+
     /// The mutant of a seed, and how deep it is tried. Targets take turns.
     pub fn mutant(&self, seed: u64) -> (Target, Sample, Depth) {
         let target = self.targets[(seed % self.targets.len() as u64) as usize];
@@ -72,7 +77,7 @@ impl Mutants {
 }
 
 /// Writes the checksum of a damaged checkpoint.
-fn seal(bytes: &mut [u8]) {
+pub(crate) fn seal(bytes: &mut [u8]) {
     let rest = BEFORE_CHECKSUM + 8;
     if bytes.len() > rest {
         let sum = u64::from(crc32fast::hash(&bytes[rest..]));

@@ -1,8 +1,8 @@
-//! Some mutants of every target, and all inputs that once failed.
+//! Some mutants of every target, all inputs that once failed, and those that libFuzzer has found.
 
 use striae_mutants::{
     judge::{Depth, Judge},
-    target::{Target, regressions, samples},
+    target::{Target, found, regressions, samples},
     trial::Mutants,
 };
 
@@ -19,7 +19,7 @@ fn mutants_neither_panic_nor_fail_without_a_place() {
         }
     }
     for target in Target::ALL {
-        for sample in samples(target) {
+        for sample in samples(target).into_iter().chain(found(target)) {
             if let Err(finding) = judge.judge(target, &sample, Depth::Check) {
                 findings.push(format!("{}: {finding:?}", sample.name));
             }

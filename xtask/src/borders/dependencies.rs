@@ -248,7 +248,7 @@ const LADDER: &[Row] = &[
     Row {
         name: "striae-mutants",
         own: &["striae"],
-        outside: &["crc32fast"],
+        outside: &["crc32fast", "libfuzzer-sys"],
     },
     Row {
         name: VERIFICATION,

@@ -60,7 +60,8 @@ impl Points {
                 let (instance, bare) = word.rsplit_once('.').unwrap_or(("", word));
                 let mut known = all.instances.iter();
                 let place = known.position(|name| name.eq_ignore_ascii_case(instance));
-                ((place.unwrap_or(0) as u64) << NUMBER_BITS) + bare.parse::<u64>().ok()?
+                let raise = (place.unwrap_or(0) as u64) << NUMBER_BITS;
+                bare.parse::<u64>().ok()?.checked_add(raise)?
             }
         };
         Some((number, *all.nodes.get(&number)?))

@@ -96,6 +96,13 @@ impl Lower {
         !self.elements.contains_key(&number) && !self.ignored_numbers.contains(&number)
     }
 
+    /// Numbers of all elements and of their nodes.
+    pub(super) fn numbers(&self) -> impl Iterator<Item = u64> {
+        let nodes = self.elements.values().flat_map(|element| &element.nodes);
+        let elements = self.elements.keys().chain(&self.ignored_numbers);
+        elements.chain(nodes).copied()
+    }
+
     /// The faces that an element is, none where it is no facet.
     pub(super) fn faces(&self, number: u64) -> Vec<FileFace> {
         let element = self.elements.get(&number);

@@ -22,13 +22,27 @@ pub(super) struct Names {
     /// Numbers of nodes and of elements of the assembly itself.
     nodes: BTreeSet<u64>,
     elements: BTreeSet<u64>,
+    /// Rows of the file: no part has more nodes or elements.
+    rows: u64,
 }
 
 impl Names {
-    /// Names of a file with so many instances.
-    pub(super) fn of(instances: usize) -> Self {
+    /// Names of a file.
+    pub(super) fn of(keywords: &[Keyword<'_>]) -> Self {
+        let instances = keywords.iter();
+        let instances = instances.filter(|keyword| keyword.name == "INSTANCE");
+        let rows = keywords.iter().map(|keyword| keyword.rows.len() as u64);
         Self {
-            several: instances > 1,
+            several: instances.count() > 1,
+            rows: rows.sum(),
+            ..Self::default()
+        }
+    }
+
+    /// Names in a part, which knows no instance.
+    pub(super) fn of_part(&self) -> Self {
+        Self {
+            rows: self.rows,
             ..Self::default()
         }
     }
@@ -135,7 +149,7 @@ impl Names {
 
     fn generated(&self, sets: &LabelSets, row: &Row<'_>) -> Result<Vec<u64>, MeshFileFault> {
         let mut members = Vec::new();
-        for number in generated(row)? {
+        for number in generated(row, self.rows)? {
             members.extend(self.number(sets, row, self.current, number)?);
         }
         Ok(members)
@@ -205,10 +219,8 @@ impl Names {
     }
 }
 
-/// Most members that one row may generate.
-const MOST_GENERATED: u64 = 10_000_000;
-
-fn generated(row: &Row<'_>) -> Result<Vec<u64>, MeshFileFault> {
+/// The numbers of a row, of which there can be no more than the file has rows.
+fn generated(row: &Row<'_>, rows: u64) -> Result<Vec<u64>, MeshFileFault> {
     let expected = "first, last and step";
     let numbers: Vec<u64> = row
         .words
@@ -221,8 +233,11 @@ fn generated(row: &Row<'_>) -> Result<Vec<u64>, MeshFileFault> {
         [first, last, step] => (first, last, step),
         _ => return Err(row.fault(expected)),
     };
-    if step == 0 || last < first || (last - first) / step > MOST_GENERATED {
+    if step == 0 || last < first {
         return Err(row.fault("first, last and step with first <= last and a step of at least 1"));
+    }
+    if (last - first) / step >= rows {
+        return Err(row.fault("first, last and step of numbers that the file defines"));
     }
     Ok((first..=last).step_by(step as usize).collect())
 }

@@ -11,7 +11,10 @@ use super::lower::{self, Lower};
 use super::names::Names;
 use super::number;
 use super::sets::{LabelSets, Member};
-use std::collections::{BTreeMap, HashSet};
+use std::{
+    collections::{BTreeMap, HashSet},
+    iter::once,
+};
 use striae_mesh::{CellKind, NodeId, Vec3};
 
 /// Content of a part.
@@ -251,11 +254,17 @@ impl Part {
         }
     }
 
-    /// Returns whether all numbers are below the limit that holds for several instances.
+    /// Returns whether all numbers are below the limit that holds for several instances, also
+    /// those that sets and elements speak of.
     pub(super) fn has_numbers_of_instances(&self) -> bool {
         let nodes = self.nodes.keys().copied();
-        let elements = self.elements.iter().map(|element| element.number);
-        let mut numbers = nodes.chain(elements);
+        let elements = self.elements.iter();
+        let elements = elements.flat_map(|of| once(of.number).chain(of.corners.iter().copied()));
+        let sets = self.node_sets.members().chain(self.element_sets.members());
+        let faces = self.surfaces.values().flat_map(|(_, faces)| faces);
+        let faces = faces.map(|(_, face)| face.largest());
+        let numbers = nodes.chain(elements).chain(sets).chain(faces);
+        let mut numbers = numbers.chain(self.lower.numbers());
         numbers.all(|number| number < 1 << NUMBER_BITS)
     }
 

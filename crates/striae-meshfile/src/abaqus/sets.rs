@@ -2,7 +2,7 @@
 
 use super::super::Place;
 use super::instance::Placement;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
 /// Kind of the members of sets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,6 +23,8 @@ struct Set {
     /// The label as it was first spelled.
     label: String,
     members: Vec<(usize, u64)>,
+    /// Numbers of the members, each of which is named once: sets may name themselves.
+    known: HashSet<u64>,
 }
 
 impl LabelSets {
@@ -42,13 +44,19 @@ impl LabelSets {
         set.map(|set| set.members.as_slice())
     }
 
+    /// Members of all sets.
+    pub(super) fn members(&self) -> impl Iterator<Item = u64> {
+        let sets = self.sets.values();
+        sets.flat_map(|set| set.members.iter().map(|(_, member)| *member))
+    }
+
     /// All labels as they were first spelled.
     pub(super) fn labels(&self) -> Vec<String> {
         self.sets.values().map(|set| set.label.clone()).collect()
     }
 
     pub(super) fn push(&mut self, label: &str, line: usize, member: u64) {
-        self.set(label).members.push((line, member));
+        self.set(label).push(line, member);
     }
 
     /// A label as it was first spelled.
@@ -64,11 +72,11 @@ impl LabelSets {
 
     /// Adds the sets of a part that is placed.
     pub(super) fn place(&mut self, part: &Self, at: &Placement) {
-        for Set { label, members } in part.sets.values() {
-            let members = members.iter();
-            let raised = members.map(|(line, member)| (*line, member + at.raise));
+        for Set { label, members, .. } in part.sets.values() {
             let set = self.set(&format!("{}{label}", at.prefix));
-            set.members.extend(raised);
+            for (line, member) in members {
+                set.push(*line, member + at.raise);
+            }
         }
     }
 
@@ -86,6 +94,15 @@ impl LabelSets {
         set.or_insert_with(|| Set {
             label: label.to_owned(),
             members: Vec::new(),
+            known: HashSet::new(),
         })
+    }
+}
+
+impl Set {
+    fn push(&mut self, line: usize, member: u64) {
+        if self.known.insert(member) {
+            self.members.push((line, member));
+        }
     }
 }

@@ -227,6 +227,27 @@ fn broken_abaqus_files_are_explained() {
     );
 }
 
+/// Two cubes with rows at the end of the part.
+fn with(rows: &str) -> String {
+    TWO_CUBES.replace("*End Part", &(rows.to_owned() + "*End Part"))
+}
+
+#[test]
+fn sets_that_name_themselves_grow_no_further() {
+    let rows = "*Nset, nset=a\n1, 2\n".to_owned() + &"A, A, A, A, A, A, A, A\n".repeat(20);
+    let mesh = body(&with(&rows)).unwrap();
+    assert_eq!(mesh.node_sets.get("a").unwrap().len(), 2);
+}
+
+#[test]
+fn ranges_of_more_numbers_than_the_file_has_rows_are_refused() {
+    let text = with("*Elset, elset=a, generate\n7, 8000007\n");
+    assert_explained(
+        body(&text).map(drop),
+        ["line 24", "numbers that the file defines"],
+    );
+}
+
 #[test]
 fn unused_nodes_are_left_out_also_of_sets() {
     let mesh = block(striae_mesh::CellKind::Hexahedron);
@@ -299,4 +320,25 @@ fn cells_of_higher_order_are_divided() {
         .iter_mut()
         .for_each(|cell| cell[20..].rotate_right(1));
     divided(&linear, &abaqus::body(&whole.abaqus("I")).unwrap());
+}
+
+#[test]
+fn nodes_are_added_beside_the_largest_number_there_is() {
+    let edges = [
+        [0, 1],
+        [1, 2],
+        [2, 0],
+        [3, 4],
+        [4, 5],
+        [5, 3],
+        [0, 3],
+        [1, 4],
+        [2, 5],
+    ];
+    let linear = block(CellKind::Wedge);
+    let whole = written::Whole::new(&linear, &edges, &[], false);
+    let text = whole.abaqus("") + "*NODE\n18446744073709551615, 9., 9., 9.\n";
+    let mesh = body(&text).unwrap();
+    assert_eq!(mesh.element_count(), 8 * linear.element_count());
+    assert!((mesh.volume() - linear.volume()).abs() < 1e-12);
 }

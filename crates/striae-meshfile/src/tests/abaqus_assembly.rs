@@ -237,3 +237,21 @@ fn broken_assemblies_are_explained() {
         ],
     );
 }
+
+#[test]
+fn numbers_of_several_instances_are_bounded_wherever_they_are() {
+    for (known, large) in [
+        ("right, S4", "18446744073709551615, S4"),
+        ("8,\n", "18446744073709551615,\n"),
+        ("9, 1, 4, 14, 11", "9, 18446744073709551615, 4, 14, 11"),
+    ] {
+        let part = PART.replace(known, large);
+        assert_ne!(part, PART);
+        let text = format!("{part}*Assembly, name=all\n{TWO}*End Assembly\n");
+        let refused = abaqus::body(&text).map(drop);
+        assert_explained(
+            refused,
+            ["numbers below 1099511627776", "*Instance, name=low"],
+        );
+    }
+}
