@@ -79,7 +79,7 @@ impl FileFace {
         match self {
             Self::Corners(corners) => largest(&corners),
             Self::Eight(corners, on) => largest(&corners).max(largest(&on)),
-            Self::Side(element, _) => element,
+            Self::Side(element, _) | Self::Free(element) => element,
         }
     }
 
