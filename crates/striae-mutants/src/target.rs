@@ -109,7 +109,7 @@ pub struct Sample {
 }
 
 /// Decks outside the corpus, from the root of the repository.
-const DECKS: [&str; 20] = [
+const DECKS: [&str; 21] = [
     "cases/edge-contact/deck.toml",
     "cases/patch-frictionless/turned-lower-finer.toml",
     "cases/patch-slip/coulomb.toml",
