@@ -8,6 +8,7 @@ use striae_surface::{
 };
 
 use crate::{
+    interference::centre,
     pair::{ContactPair, Enclosure, Geometry, local_sizes},
     placement::Placement,
     search::{Bounds, Tree},
@@ -99,6 +100,27 @@ impl<'a> Configuration<'a> {
             }
         }
         self
+    }
+
+    /// Depth behind a facet up to which the body there is its own: half its present thickness.
+    ///
+    /// A body that is pressed to half its height would otherwise touch itself through itself.
+    pub(crate) fn depth(&self, side: Side, facet: FacetId) -> f64 {
+        let Some(behind) = self.pair.sides[side].behind.get(facet.index()) else {
+            return f64::INFINITY;
+        };
+        let thickness = match &behind.end {
+            Some(end) => {
+                let ends = end.nodes.iter().zip(end.weights);
+                let x = &self.side(end.side).x;
+                let end: Vec3 = ends.map(|(&node, weight)| x[node] * weight).sum();
+                let own = self.side(side);
+                let corners = &own.surface.facets()[facet.index()];
+                (end - centre(corners, |node| own.x[node])).norm()
+            }
+            None => behind.thickness,
+        };
+        0.5 * thickness
     }
 
     /// Copy of the configuration, reached in the time `elapsed`.

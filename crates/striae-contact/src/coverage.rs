@@ -151,11 +151,12 @@ impl Configuration<'_> {
             return normal.is_some_and(faces);
         }
         let around = own.surface.corners(node).iter();
-        let depths = around.map(|corner| self.pair.sides[side].depth(corner.facet));
-        let opposing = &self.pair.sides[self.pair.opposing(side)];
+        let depths = around.map(|corner| self.depth(side, corner.facet));
+        let opposing = self.pair.opposing(side);
         // Behind its own body by more than half the thickness, a node faces the back of another
         // layer.
-        !self.is_corner(side, node, facet) && -gap <= depths.fold(opposing.depth(facet), f64::min)
+        !self.is_corner(side, node, facet)
+            && -gap <= depths.fold(self.depth(opposing, facet), f64::min)
     }
 
     /// Returns whether the middle of the first facet may face the second one at this gap.
@@ -164,8 +165,8 @@ impl Configuration<'_> {
             return true;
         }
         let mut corners = self.side(side).corners(facets[0]).into_iter();
-        let sides = [side, self.pair.opposing(side)].map(|side| &self.pair.sides[side]);
-        let depths = [0, 1].map(|at| sides[at].depth(facets[at]));
+        let sides = [side, self.pair.opposing(side)];
+        let depths = [0, 1].map(|at| self.depth(sides[at], facets[at]));
         !corners.any(|corner| self.is_corner(side, corner, facets[1]))
             && -gap <= depths[0].min(depths[1])
     }

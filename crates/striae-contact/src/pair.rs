@@ -45,10 +45,9 @@ pub struct PairedSurface {
     pub stiffness: f64,
     /// Texture, if the side has one.
     pub texture: Option<SideTexture>,
-    /// Thickness of the body behind each facet in the reference configuration, for contact within
-    /// one body: what is further behind a facet than half of it belongs to another one. Empty
-    /// where no bound is known.
-    pub thickness: Vec<f64>,
+    /// The body behind each facet, for contact within one body: what is further behind a facet
+    /// than half of its thickness belongs to another one. Empty where no bound is known.
+    pub behind: Vec<Behind>,
     /// Skin that the side is part of, for sides that consist of faces.
     pub enclosure: Option<Enclosure>,
 }
@@ -65,12 +64,24 @@ pub struct Enclosure {
     pub facets: Vec<Option<FacetId>>,
 }
 
-impl PairedSurface {
-    /// Depth behind a facet up to which the body there is its own.
-    pub(crate) fn depth(&self, facet: FacetId) -> f64 {
-        let thickness = self.thickness.get(facet.index());
-        0.5 * thickness.copied().unwrap_or(f64::INFINITY)
-    }
+/// The body behind a facet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Behind {
+    /// Its thickness in the reference configuration, infinite where it has no end.
+    pub thickness: f64,
+    /// Its other side, if that is on a side of the pair.
+    pub end: Option<End>,
+}
+
+/// The end of a fibre through a body, on a side of the pair: the thickness follows the deformation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct End {
+    /// The side.
+    pub side: Side,
+    /// Nodes around the end.
+    pub nodes: [SurfaceNode; 4],
+    /// Their weights; they sum to one.
+    pub weights: [f64; 4],
 }
 
 /// Texture of one side of a pair.

@@ -284,7 +284,9 @@ fn of_facet(
             reach,
             segment,
         };
-        if is_near(&paired) && (!one_body || self_contact::is_outside(configuration, &paired)) {
+        if is_near(&paired)
+            && (!one_body || self_contact::is_outside(configuration, &paired, limit))
+        {
             found.push(paired);
         }
     }

@@ -63,7 +63,7 @@ fn side(geometry: Geometry) -> PairedSurface {
         geometry,
         stiffness: 1.0,
         texture: None,
-        thickness: Vec::new(),
+        behind: Vec::new(),
         enclosure: None,
     }
 }

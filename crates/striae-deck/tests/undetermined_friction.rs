@@ -417,10 +417,7 @@ name = "draw"
 increments = { initial = 0.05, smallest = 1e-3, largest = 0.4 }
 release = [{ body = "block", nodes = "zmin", components = ["x"] }]
 displacement = [{ body = "block", nodes = "zmin", y = 1 }]
-traction = [{ body = "block", facets = "zmax", value = [SIDE, 0, 0], curve = "constant" }]
-[[curve]]
-name = "constant"
-points = [[0, 1], [1, 1]]
+traction = [{ body = "block", facets = "zmax", vector = [SIDE, 0, 0], curve = "constant" }]
 "#;
     for side in [0.0, 1.0, 5.0] {
         let (forces, state) = solved(&deck.replace("SIDE", &format!("{side}")));

@@ -324,7 +324,7 @@ pub(crate) fn pair_geometry(model: &Model, pair: &Pair) -> Result<PairGeometry, 
             geometry: Geometry::Itself,
             stiffness: f64::INFINITY,
             texture: None,
-            thickness: Vec::new(),
+            behind: Vec::new(),
             enclosure: None,
         }),
         ContactSurface::Rigid(surface) => {
@@ -335,7 +335,7 @@ pub(crate) fn pair_geometry(model: &Model, pair: &Pair) -> Result<PairGeometry, 
                 geometry,
                 stiffness: f64::INFINITY,
                 texture: None,
-                thickness: Vec::new(),
+                behind: Vec::new(),
                 enclosure: None,
             })
         }

@@ -220,7 +220,7 @@ fn side(geometry: Geometry, stiffness: f64, texture: Option<SideTexture>) -> Pai
         geometry,
         stiffness,
         texture,
-        thickness: Vec::new(),
+        behind: Vec::new(),
         enclosure: None,
     }
 }

@@ -1,17 +1,20 @@
 //! Pairs of facets of one surface that are contact of the body with itself.
 //!
 //! Two facets of a body may face each other because the body lies between them, or another layer
-//! of it does. With `t` the thickness of the body behind a facet, `g` the mean gap of a segment
+//! of it does. With `t` the present thickness of the body behind a facet, `g` the mean gap of a segment
 //! and `i`, `j`, `k` facets, a pair is left out
 //!
 //! ```text
 //! back to back   -g_ij > min(t_i, t_j)/2
 //! hidden         {i, k} or {j, k} covers the middle of {i, j}, and is nearer by more than t_k/2
-//! around a node  i and j share one, and n_i . n_j > -.71
+//! around a node  i and j share one, and n_i . n_j > -.71 or -g_ij > .1 h
 //! ```
 //!
 //! Facets that share a node are folded onto each other once they stand at more than 135 degrees;
-//! leaving all of them out would leave the root of a slit without pressure.
+//! leaving all of them out would leave the root of a slit without pressure. At an edge that becomes
+//! as sharp as that the body itself lies between them, and is as thin there as they are apart, not
+//! as thick as behind their middles. `h` is the size of the smaller facet: edges of 45 degrees have
+//! a mean gap of some tenths of it, folds overlap by thousandths.
 
 use std::collections::BTreeMap;
 
@@ -27,6 +30,9 @@ use crate::{
 
 /// Cosine between the normals of facets that share a node from which on they are folded.
 const FOLDED: f64 = -0.71;
+/// Depth over the size of a facet up to which facets that share a node are folded; beyond that the
+/// body is between them.
+const WEDGE: f64 = 0.1;
 
 /// Returns the cosine between the normals of two facets up to which they touch: facets that
 /// share a node of the mesh have to be folded there.
@@ -42,11 +48,25 @@ pub(super) fn facing_limit(snapshots: [&Snapshot; 2], corners: [&[SurfaceNode; 4
     }
 }
 
-/// Returns whether the body does not lie between two facets.
-pub(super) fn is_outside(configuration: &Configuration, paired: &PairedFacets) -> bool {
+/// Returns whether the body does not lie between two facets that touch up to a cosine.
+pub(super) fn is_outside(configuration: &Configuration, paired: &PairedFacets, limit: f64) -> bool {
     let facets = places_of(paired);
-    let depths = facets.map(|(side, facet)| configuration.pair.sides[side].depth(facet));
-    -paired.mean_gap(configuration) <= depths.fold(f64::INFINITY, f64::min)
+    let depths = facets.map(|(side, facet)| configuration.depth(side, facet));
+    let of_body = depths.fold(f64::INFINITY, f64::min);
+    let depth = match limit == FOLDED {
+        true => of_body.min(WEDGE * size(paired)),
+        false => of_body,
+    };
+    -paired.mean_gap(configuration) <= depth
+}
+
+/// Side of a square with the area of the smaller facet.
+fn size(paired: &PairedFacets) -> f64 {
+    let area = |[a, b, c, d]: [usize; 4]| {
+        let x = &paired.x;
+        0.5 * (x[c] - x[a]).cross(&(x[d] - x[b])).norm()
+    };
+    area([0, 1, 2, 3]).min(area([4, 5, 6, 7])).sqrt()
 }
 
 /// Leaves out facets that face each other through another layer.
@@ -61,7 +81,7 @@ pub(super) fn drop_hidden(configuration: &Configuration, all: &mut Vec<PairedFac
         .iter()
         .map(|paired| paired.mean_gap(configuration))
         .collect();
-    let depth = |(side, facet): (Side, FacetId)| configuration.pair.sides[side].depth(facet);
+    let depth = |(side, facet): (Side, FacetId)| configuration.depth(side, facet);
     let hides = |at: usize, facet: (Side, FacetId), by: usize| {
         let between = places_of(&all[by]).find(|other| *other != facet);
         by != at
@@ -113,7 +133,7 @@ mod tests {
 
     use super::*;
     use crate::{
-        pair::{ContactPair, Enforcement, Geometry, PairedSurface},
+        pair::{Behind, ContactPair, Enforcement, Geometry, PairedSurface},
         pairing::{Corners, Scope, compliances, paired_facets},
         placement::Placement,
         segment::SegmentDerivatives,
@@ -154,22 +174,32 @@ mod tests {
 
     fn gaps(count: usize, thickness: f64, gap: f64, known: bool) -> Vec<f64> {
         let (facets, x) = sheets(count, thickness, gap);
+        let of_facets = match known {
+            true => vec![thickness; facets.len()],
+            false => Vec::new(),
+        };
+        found(&facets, x, of_facets)
+    }
+
+    /// Mean gaps of the pairs of a surface with these thicknesses behind its facets.
+    fn found(facets: &[[NodeId; 4]], x: Vec<Vec3>, of_facets: Vec<f64>) -> Vec<f64> {
         let side = |geometry: Geometry, thickness: Vec<f64>| PairedSurface {
             geometry,
             stiffness: 1.0,
             texture: None,
-            thickness,
+            behind: thickness
+                .into_iter()
+                .map(|thickness| Behind {
+                    thickness,
+                    end: None,
+                })
+                .collect(),
             enclosure: None,
-        };
-        let of_facets = if known {
-            vec![thickness; facets.len()]
-        } else {
-            Vec::new()
         };
         let pair = ContactPair {
             name: "sheets".to_owned(),
             sides: [
-                side(Geometry::Deformable(Surface::new(&facets)), of_facets),
+                side(Geometry::Deformable(Surface::new(facets)), of_facets),
                 side(Geometry::Itself, Vec::new()),
             ],
             enforcement: Enforcement::Weighted,
@@ -203,5 +233,27 @@ mod tests {
             let all = gaps(count, thickness, gap, false);
             assert!(all.len() > found.len(), "{count}: {}", all.len());
         }
+    }
+
+    /// Two squares with a common edge, at 20 degrees: outer sides of a wedge, whose body is between
+    /// them, or inner sides of a fold.
+    #[test]
+    fn the_sides_of_a_sharp_edge_do_not_touch_through_the_body() {
+        let (sine, cosine) = 20f64.to_radians().sin_cos();
+        let places = |half: f64| {
+            let at = |x: f64, z: f64| [0.0, 1.0].map(|y| Vec3::new(x, y, z) * half);
+            [at(0.0, 0.0), at(1.0, 0.0), at(cosine, sine)].concat()
+        };
+        let node = NodeId::new;
+        let lower = [node(0), node(1), node(3), node(2)];
+        let upper = [node(0), node(4), node(5), node(1)];
+        let turned = |[a, b, c, d]: [NodeId; 4]| [a, d, c, b];
+        let thick = vec![1.0; 2];
+        // Within the search distance.
+        let x = places(0.5);
+        let wedge = found(&[lower, upper], x.clone(), thick.clone());
+        assert!(wedge.is_empty(), "{wedge:?}");
+        let fold = found(&[turned(lower), turned(upper)], x, thick);
+        assert!(fold.len() == 1 && fold[0] > 0.0, "{fold:?}");
     }
 }

@@ -35,7 +35,7 @@ pub(super) fn deformable(
         geometry: Geometry::Deformable(surface),
         stiffness: body_model.modulus_at(faces),
         texture: None,
-        thickness: Vec::new(),
+        behind: Vec::new(),
         enclosure: feature_angle.map(|_| enclosure(model, body, faces)),
     }
 }

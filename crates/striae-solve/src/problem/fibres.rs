@@ -2,6 +2,7 @@
 
 use striae_contact::{
     interference::{Fibre, fibres, lengths},
+    pair::{Behind, End},
     side::Side,
 };
 use striae_mesh::{NodeId, Vec3};
@@ -38,11 +39,32 @@ pub(crate) fn add_fibres(model: &Model, pairs: &mut [PairGeometry]) {
                 let positions = &model.bodies[body].mesh.positions;
                 let at = |node: NodeId| positions[node.index()];
                 let x: Vec<Vec3> = surface.nodes().iter().map(|node| at(*node)).collect();
-                let thickness = lengths(surface, &x, &pair.fibres[side], at);
-                pair.contact.sides[side].thickness = thickness;
+                let thickness = lengths(surface, &x, &pair.fibres[side], at).into_iter();
+                let through = thickness.zip(&pair.fibres[side]);
+                let behind = through.map(|(thickness, fibre)| Behind {
+                    thickness,
+                    end: fibre.as_ref().and_then(|fibre| end(pair, body, fibre)),
+                });
+                pair.contact.sides[side].behind = behind.collect();
             }
         }
     }
+}
+
+/// The end of a fibre on a side of a pair that is of its body.
+fn end(pair: &PairGeometry, body: usize, fibre: &Fibre) -> Option<End> {
+    Side::BOTH.into_iter().find_map(|side| {
+        let surface = pair.contact.sides[side].surface()?;
+        let nodes = fibre.nodes.map(|node| surface.node(node));
+        let [Some(a), Some(b), Some(c), Some(d)] = nodes else {
+            return None;
+        };
+        (pair.bodies[side] == Some(body)).then_some(End {
+            side,
+            nodes: [a, b, c, d],
+            weights: fibre.weights,
+        })
+    })
 }
 
 fn of_body(positions: &[Vec3], surface: &Surface, skin: &Surface) -> Vec<Option<Fibre>> {

@@ -18,7 +18,7 @@ pub(super) fn contact_pair(sides: [(&Mesh, &[Face]); 2], within: Option<f64>) ->
         let facets: Vec<_> = faces.iter().map(|face| mesh.face_nodes(*face)).collect();
         PairedSurface {
             geometry: Geometry::Deformable(Surface::new(&facets)),
-            thickness: Vec::new(),
+            behind: Vec::new(),
             enclosure: None,
             stiffness: 1.0,
             texture: None,

@@ -193,6 +193,34 @@ fn two_pieces_of_one_body_touch_as_two_bodies_do() {
     }
 }
 
+/// The thickness that tells what is inside follows the deformation: top and bottom of a block that
+/// is pressed to less than half its height face away from each other all the same.
+#[test]
+fn a_block_that_is_pressed_flat_does_not_touch_through_itself() {
+    let pressed = |touches: bool| {
+        let cube = block([0.0; 3], [1.0, 1.0, 1.0], [2, 2, 2]).mesh().unwrap();
+        let mut model = model(vec![body("cube", with_skin(cube), rubber(1.0, 0.2))]);
+        if touches {
+            model.touch_itself("cube", &["skin"], coulomb(0.3));
+        }
+        let mut press = step();
+        press.increments = increments(0.05, 1e-3);
+        press.displacements = vec![
+            model.hold("cube", "zmin", [Some(0.0); 3]),
+            model.hold("cube", "zmax", [None, None, Some(-0.7)]),
+            model.hold("cube", "xmin", [Some(0.0), None, None]),
+            model.hold("cube", "ymin", [None, Some(0.0), None]),
+        ];
+        model.steps = vec![press];
+        completed(model)
+    };
+    let [touching, bare] = [true, false].map(pressed);
+    let apart = apart(&touching, &bare);
+    assert!(apart.iter().all(|apart| *apart < 1e-12), "{apart:?}");
+    let nodes = touching.last().pairs[0].nodes.iter().flatten();
+    assert!(nodes.into_iter().all(|node| node.pressure == 0.0));
+}
+
 /// Nodes whose displacement is prescribed feel what touches them, be it of the same surface.
 #[test]
 fn a_prescribed_wall_is_touched_as_that_of_another_body() {
