@@ -8,7 +8,6 @@ use striae_surface::{
 };
 
 use crate::{
-    interference::centre,
     pair::{ContactPair, Enclosure, Geometry, local_sizes},
     placement::Placement,
     search::{Bounds, Tree},
@@ -115,8 +114,9 @@ impl<'a> Configuration<'a> {
                 let x = &self.side(end.side).x;
                 let end: Vec3 = ends.map(|(&node, weight)| x[node] * weight).sum();
                 let own = self.side(side);
-                let corners = &own.surface.facets()[facet.index()];
-                (end - centre(corners, |node| own.x[node])).norm()
+                let ring = distinct_corners(&own.surface.facets()[facet.index()]);
+                let start = ring.iter().map(|&node| own.x[node]).sum::<Vec3>() / ring.len() as f64;
+                (end - start).norm()
             }
             None => behind.thickness,
         };

@@ -35,7 +35,6 @@ use striae_surface::{
 pub use facing::{Facing, across, facing};
 pub use nearest::{Nearest, Standing};
 pub use overlap::{Overlap, PlacedSkins, Skins};
-pub(crate) use thickness::centre;
 pub use thickness::{Fibre, Thickness, fibres, lengths};
 
 use crate::{

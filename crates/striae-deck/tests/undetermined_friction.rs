@@ -1,5 +1,7 @@
 //! Friction where displacements or other pairs hold nodes in tangential directions: planes of
 //! symmetry and corners.
+//!
+//! Longer than other files, as the decks stand beside what is asked of them.
 
 use std::path::Path;
 

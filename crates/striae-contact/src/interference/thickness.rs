@@ -87,7 +87,7 @@ pub fn lengths(
         .collect()
 }
 
-pub(crate) fn centre(corners: &[SurfaceNode; 4], x: impl Fn(SurfaceNode) -> Vec3) -> Vec3 {
+pub(super) fn centre(corners: &[SurfaceNode; 4], x: impl Fn(SurfaceNode) -> Vec3) -> Vec3 {
     let ring = distinct_corners(corners);
     ring.iter().map(|&node| x(node)).sum::<Vec3>() / ring.len() as f64
 }

@@ -1,4 +1,6 @@
 //! Bodies that touch themselves, compared with pairs of their walls and closed forms.
+//!
+//! Longer than other files, as models that are compared share their steps.
 
 use striae_contact::{side::Side, unknowns::Status};
 use striae_law::friction::Friction;
