@@ -16,6 +16,9 @@
 //! z = varpi K^-1 du/|K^-1 du|
 //! ```
 //!
+//! Before anything has moved in an increment it has `z = r_t K^-1 du`, which resists in the directions
+//! that friction alone holds.
+//!
 //! If friction falls with the slip rate, it may fall faster with slip than the bodies relax: with
 //! `f(d) = F - k d - varpi(d/dt)`, `f'(0)` is positive, and Newton's method goes backwards from
 //! rest. Where `varpi` is convex, as in a decay, `f` is concave, and from the right of the solution
@@ -72,9 +75,10 @@ pub(super) fn tangential(
         },
         varpi,
         z,
+        r,
     };
     match iteration {
-        Iteration::First => node.first(r),
+        Iteration::First => node.first(),
         Iteration::Later { slip_weight } => node.later(r * slip_weight),
         Iteration::Corrected(corrector) => node.corrected(r, corrector),
     }
@@ -89,16 +93,18 @@ struct Friction<'a> {
     /// Radius for the row of slip: of the weakest friction where the node begins to slip again.
     begun: Q,
     z: [Q; 2],
+    /// The default of `r_t`.
+    r: f64,
 }
 
 impl Friction<'_> {
     /// In the first iteration: nodes that slipped continue to slip.
-    fn first(&self, r: f64) -> (Status, [TangentialRow; 2]) {
+    fn first(&self) -> (Status, [TangentialRow; 2]) {
         let [z1, z2] = self.z.map(|z| z.re);
         // Only nodes still near the slip surface continue to slip; one far inside has been
         // unloaded.
         if self.state.node.slipped && z1.hypot(z2) > 0.5 * self.least_radius() {
-            (Status::Slip, self.continued(r))
+            (Status::Slip, self.continued())
         } else {
             (Status::Stick, self.stick())
         }
@@ -229,8 +235,8 @@ impl Friction<'_> {
 
     /// Slip that continues in the direction of `z`: `|z| = varpi rho` and no slip across, or no `z`
     /// across where the node cannot move that way. Where prescribed motions drive it and friction
-    /// alone may hold it across, it resists by `r`.
-    fn continued(&self, r: f64) -> [TangentialRow; 2] {
+    /// alone may hold it across, it resists by `r_t`.
+    fn continued(&self) -> [TangentialRow; 2] {
         let z = &self.z;
         let radius = self.continued_radius();
         let (_, direction) = polar(Vector2::new(z[0].re, z[1].re));
@@ -241,13 +247,14 @@ impl Friction<'_> {
             Mobility::Along(_) | Mobility::Held => traction(across(z)),
             Mobility::Driven => {
                 let [z, turned] = [z, &self.state.turned].map(across);
-                traction(Q::combination([(1.0, &z), (-r, &turned)]))
+                self.resisting(&z, &turned)
             }
         };
         [traction(along), second]
     }
 
-    /// `du = 0`, with `z = 0` in directions in which the node cannot move.
+    /// `du = 0`, with `z = 0` in directions in which the node cannot move. One that prescribed
+    /// motions drive has not moved yet, and friction alone may hold it in another direction.
     fn stick(&self) -> [TangentialRow; 2] {
         let slip = &self.state.slip;
         match &self.mobility {
@@ -256,8 +263,17 @@ impl Friction<'_> {
                 let resting = part(&way.of_slip, slip);
                 [self.resting(resting), across(&way.of_friction, &self.z)]
             }
-            Mobility::Held | Mobility::Driven => self.z.map(traction),
+            Mobility::Held => self.z.map(traction),
+            Mobility::Driven => {
+                let turned = &self.state.turned;
+                [0, 1].map(|at| self.resisting(&self.z[at], &turned[at]))
+            }
         }
+    }
+
+    /// Friction that grows with slip, for the iteration in which its direction is not known.
+    fn resisting(&self, z: &Q, turned: &Q) -> TangentialRow {
+        traction(Q::combination([(1.0, z), (-self.r, turned)]))
     }
 
     /// No slip.
