@@ -38,7 +38,7 @@ fn an_assembly_becomes_a_picture_and_an_animation() {
     let value = |name: &str| {
         let mut lines = history.lines().map(|line| line.split(','));
         let at = lines.next().unwrap().position(|one| one.ends_with(name));
-        let last = lines.last().unwrap().nth(at.unwrap());
+        let last = lines.next_back().unwrap().nth(at.unwrap());
         last.unwrap().parse::<f64>().unwrap()
     };
     let [x, z] = [".resultant_a.x", ".resultant_a.z"].map(value);

@@ -523,7 +523,8 @@ pub enum FaultKind {
     },
     /// A facet of a rigid surface without area.
     #[error(
-        "facet {facet} of rigid surface `{rigid}`, with a corner at {}, has no area; remove it, or correct its corners", place(&at)
+        "facet {facet} of rigid surface `{rigid}`, with a corner at {}, has no area; remove it, or correct its corners",
+        place(at)
     )]
     FlatFacet {
         /// The rigid surface.
@@ -674,7 +675,7 @@ pub enum FaultKind {
     },
     /// A piece of a body that is not joined to the rest and can move without resistance.
     #[error(
-        "body `{body}` is made of {pieces} pieces that share no nodes, and for the piece of {nodes} nodes with {node} at {} {} in step `{step}`{}", place(&at), leaves(.motions), joining(*coincident)
+        "body `{body}` is made of {pieces} pieces that share no nodes, and for the piece of {nodes} nodes with {node} at {} {} in step `{step}`{}", place(at), leaves(.motions), joining(*coincident)
     )]
     LoosePiece {
         /// The body.

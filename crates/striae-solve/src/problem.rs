@@ -146,7 +146,7 @@ pub enum ProblemError {
     /// A field has no tangential direction at a node.
     #[error(
         "pair `{pair}`: the texture of {surface} has no direction at {node}, {}: {}",
-        place(&at), cause.words()
+        place(at), cause.words()
     )]
     Undirected {
         /// Name of the pair.

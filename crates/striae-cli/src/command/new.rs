@@ -141,9 +141,7 @@ mod tests {
             check::run(&checked, &mut out).unwrap();
             let said = String::from_utf8(out).unwrap();
             assert!(said.contains("no faults, no warnings"), "{said}");
-            let outcome = Simulation::open(&deck, &name.join("results"))
-                .unwrap()
-                .run();
+            let outcome = Simulation::open(&deck, name.join("results")).unwrap().run();
             let outcome = outcome.unwrap();
             assert_eq!(outcome.ending, Ending::Completed, "{template:?}");
             let summary = outcome.summary;

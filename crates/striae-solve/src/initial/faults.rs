@@ -8,7 +8,7 @@ pub enum InitialFault {
     /// Bodies overlap.
     #[error(
         "pair `{pair}`: `{body}` is {depth} inside `{other}` at {}, next to its {node}; that is {:.0} % of the local facet size. {}",
-        place(&at), 100.0 * share, closing.remedy(),
+        place(at), 100.0 * share, closing.remedy(),
         depth = significant(*depth, 4))]
     Overlap {
         /// Name of the pair.
@@ -31,7 +31,7 @@ pub enum InitialFault {
     /// Bodies overlap by so much that their other side is nearer.
     #[error(
         "pair `{pair}`: `{body}` is {depth} inside `{other}` at {}, next to its {node}, which is {:.0} % of the thickness of `{other}` there, {thickness}, and {:.0} % of the local facet size {size}. Overlaps can be resolved up to half the thickness; beyond that, the other side of `{other}` is nearer. Separate the bodies in the mesh, or bring them together in a step",
-        place(&at), 100.0 * depth / thickness, 100.0 * depth / size,
+        place(at), 100.0 * depth / thickness, 100.0 * depth / size,
         depth = significant(*depth, 4), thickness = significant(*thickness, 4), size = significant(*size, 4))]
     Deep {
         /// Name of the pair.
@@ -76,7 +76,8 @@ pub enum InitialFault {
     /// The sides look away from each other, as where facets are turned inside out.
     #[error(
         "pair `{pair}`: the surface of `{body}` faces away from that of `{other}`, so they cannot touch: at {node} of `{body}`, {}, both normals have the same direction. {}",
-        place(&at), turning(rigid)
+        place(at),
+        turning(rigid)
     )]
     Away {
         /// Name of the pair.
@@ -95,7 +96,7 @@ pub enum InitialFault {
     /// Facets of one side are far smaller than those of the other.
     #[error(
         "pair `{pair}`: {count} facets of `{body}` lie opposite one facet of `{other}`, at {}, too many to compute their contact. Refine `{other}` there, coarsen `{body}`, or make `{other}` a rigid surface if it hardly deforms",
-        place(&at)
+        place(at)
     )]
     Crowded {
         /// Name of the pair.

@@ -40,7 +40,7 @@ pub enum TieFault {
     /// Facets that face each other from too far away.
     #[error(
         "tie `{tie}`: at {} `{a}` and `{b}` are {gap} apart, {:.0} % of the facet size. Repair the meshes, leave these facets out, or set `within` to the largest distance to be tied",
-        place(&at), 100.0 * share,
+        place(at), 100.0 * share,
         gap = significant(*gap, 4))]
     Apart {
         /// The tie.

@@ -49,7 +49,7 @@ fn words(model: &Model, pair: PairId, fit: &Fit) -> String {
             "{} of `{}` {}",
             spot.unwrap_or_default(),
             other_name(model, pair, side.opposite()),
-            place(&x)
+            place(x)
         )
     };
     let gap = match &fit.gap {
