@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Optional, Union
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _check as check
 from . import _striae as native
@@ -166,7 +167,7 @@ def fit_friction(
     *,
     theta: Union[float, Sequence[float], Floats] = 0.0,
     spread: Union[float, Sequence[float], Floats] = 1.0,
-    specimen: Optional[Sequence[Any]] = None,
+    specimen: Union[Sequence[Any], npt.NDArray[Any], None] = None,
     level: float = 0.95,
     **words: str,
 ) -> FrictionFit:
@@ -213,7 +214,9 @@ def fit_friction(
     return FrictionFit(friction, summary, at_bound, probability, kept, specimens)
 
 
-def _numbered(specimen: Optional[Sequence[Any]], count: int) -> tuple[list[Any], list[int]]:
+def _numbered(
+    specimen: Union[Sequence[Any], npt.NDArray[Any], None], count: int
+) -> tuple[list[Any], list[int]]:
     """Names of the specimens, and the number of that of each reading."""
     if specimen is None:
         return [], [0] * count
