@@ -135,10 +135,12 @@ mod together {
                 process::abort();
             });
             ranks.gather(&[]);
-            match self.voice() {
-                Voice::First => result,
-                Voice::Silent => result.map_err(|failure| Failure::Told(Box::new(failure))),
+            if self.voice() == Voice::First && !failure.is_told() && !failure.is_broken_pipe() {
+                let _ = std::io::stderr().write_all(format!("{failure}\n").as_bytes());
             }
+            // The others stay until it is told: MPI ends all ranks once one has ended by a failure.
+            ranks.gather(&[]);
+            result.map_err(|failure| Failure::Told(Box::new(failure)))
         }
     }
 }
