@@ -11,11 +11,11 @@ use rayon::prelude::*;
 use striae_mesh::{FacetId, Vec3};
 use striae_surface::{facet::Shape, node::SurfaceNode};
 
+use self_contact::Neighbourhood;
+
 use crate::{
     configuration::Configuration,
-    segment::{
-        FACING, FIRST, Facet, Segment, SegmentDerivatives, mixed, plane_segment, segment_facing,
-    },
+    segment::{FIRST, Facet, Segment, SegmentDerivatives, mixed, plane_segment, segment_facing},
     side::Side,
 };
 
@@ -258,10 +258,11 @@ fn of_facet(
             corners: positions_b,
             shape: Shape::of(&corners_b),
         };
-        let limit = match one_body {
-            true => self_contact::facing_limit([own, other], [&corners, &corners_b]),
-            false => FACING,
+        let neighbourhood = match one_body {
+            true => self_contact::neighbourhood([own, other], [&corners, &corners_b]),
+            false => Neighbourhood::Apart,
         };
+        let limit = neighbourhood.facing_limit();
         let weights = [
             scope.compliances[sides[0]][facet.index()],
             scope.compliances[sides[1]][opposite.index()],
@@ -285,7 +286,7 @@ fn of_facet(
             segment,
         };
         if is_near(&paired)
-            && (!one_body || self_contact::is_outside(configuration, &paired, limit))
+            && (!one_body || self_contact::is_outside(configuration, &paired, neighbourhood))
         {
             found.push(paired);
         }

@@ -34,28 +34,54 @@ const FOLDED: f64 = -0.71;
 /// body is between them.
 const WEDGE: f64 = 0.1;
 
-/// Returns the cosine between the normals of two facets up to which they touch: facets that
-/// share a node of the mesh have to be folded there.
-pub(super) fn facing_limit(snapshots: [&Snapshot; 2], corners: [&[SurfaceNode; 4]; 2]) -> f64 {
+/// Position of two facets of a body to each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Neighbourhood {
+    /// They share a node of the mesh.
+    Around,
+    /// They have no node in common.
+    Apart,
+}
+
+/// Returns whether two facets share a node of the mesh.
+pub(super) fn neighbourhood(
+    snapshots: [&Snapshot; 2],
+    corners: [&[SurfaceNode; 4]; 2],
+) -> Neighbourhood {
     let mesh = |at: usize, node: &SurfaceNode| snapshots[at].surface.nodes()[node.index()];
     let shares = |node: &SurfaceNode| {
         let mut others = corners[1].iter();
         others.any(|other| mesh(1, other) == mesh(0, node))
     };
     match corners[0].iter().any(shares) {
-        true => FOLDED,
-        false => FACING,
+        true => Neighbourhood::Around,
+        false => Neighbourhood::Apart,
     }
 }
 
-/// Returns whether the body does not lie between two facets that touch up to a cosine.
-pub(super) fn is_outside(configuration: &Configuration, paired: &PairedFacets, limit: f64) -> bool {
+impl Neighbourhood {
+    /// Returns the cosine between the normals of two facets up to which they touch: those that
+    /// share a node have to be folded there.
+    pub(super) fn facing_limit(self) -> f64 {
+        match self {
+            Self::Around => FOLDED,
+            Self::Apart => FACING,
+        }
+    }
+}
+
+/// Returns whether the body does not lie between two facets.
+pub(super) fn is_outside(
+    configuration: &Configuration,
+    paired: &PairedFacets,
+    neighbourhood: Neighbourhood,
+) -> bool {
     let facets = places_of(paired);
     let depths = facets.map(|(side, facet)| configuration.depth(side, facet));
     let of_body = depths.fold(f64::INFINITY, f64::min);
-    let depth = match limit == FOLDED {
-        true => of_body.min(WEDGE * size(paired)),
-        false => of_body,
+    let depth = match neighbourhood {
+        Neighbourhood::Around => of_body.min(WEDGE * size(paired)),
+        Neighbourhood::Apart => of_body,
     };
     -paired.mean_gap(configuration) <= depth
 }
