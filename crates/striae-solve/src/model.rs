@@ -243,23 +243,11 @@ impl Pair {
 
     /// True where both sides are of one body.
     pub fn is_within_a_body(&self) -> bool {
-        let [a, b] = self.owners();
-        a.0.is_some() && a == b
-    }
-
-    /// Returns whether another pair is of the same two bodies or rigid surfaces.
-    pub fn is_beside(&self, other: &Self) -> bool {
-        let ([a, b], owners) = (self.owners(), other.owners());
-        owners == [a, b] || owners == [b, a]
-    }
-
-    /// The body or the rigid surface of each side.
-    fn owners(&self) -> [(Option<BodyId>, Option<RigidId>); 2] {
-        self.surfaces().map(|side| match side {
-            ContactSurface::Deformable { body, .. } => (Some(*body), None),
-            ContactSurface::Rigid(rigid) => (None, Some(*rigid)),
-            ContactSurface::Itself => (None, None),
-        })
+        let [a, b] = self.surfaces().map(|side| match side {
+            ContactSurface::Deformable { body, .. } => Some(*body),
+            ContactSurface::Rigid(_) | ContactSurface::Itself => None,
+        });
+        a.is_some() && a == b
     }
 }
 

@@ -15,7 +15,7 @@
 //! | `passage` | the same for what has passed through, see there | 0 |
 //! | `coarse` | facet size over that which would do for the zone of contact, where the force of the pair is largest, see [`crate::audit`] | 1 |
 //! | `overlap` | the same for bodies inside themselves or others where no pair sees it, over the smaller facet | 0.1 |
-//! | `unfelt` | the same while no pair of these bodies has a force | 0.02 |
+//! | `unfelt` | the same while the pair has no force at all, but at nodes that another pair presses | 0.02 |
 //! | `creation` | negative friction work over the largest energy | 1e-6 |
 //! | `gain` | work that friction does at a node that slips over all that it does on its side in an increment, see [`crate::audit`] | 0.01 |
 //! | `contact` | energy that contact has made, beyond friction, over the largest external work or work of actuation | 0.1 |
@@ -30,15 +30,18 @@
 //!
 //! Longer than other files, as it is the one list of all checks.
 
+use std::collections::BTreeSet;
+
 use serde::{Deserialize, Serialize};
 use striae_contact::{
     initial::Fit,
-    interference::{Interference, Kind as Interfering, SHARE},
+    interference::{Interference, Kind as Interfering, SHARE, Spot},
     selection::deepest,
     side::Side,
 };
 use striae_law::bulk::Material;
 use striae_mesh::{ElementId, NodeId, Vec3};
+use striae_surface::node::SurfaceNode;
 
 use crate::{
     audit::{Doubt, LEAST_SHARE, coarse, doubts},
@@ -46,6 +49,7 @@ use crate::{
     interference::{Positions, between, beyond, within},
     model::{Initial, Model, PairId},
     newton::{Acceptance, InStep, Increment, Reach},
+    node::GlobalNode,
     outcome::Ending,
     problem::Problem,
     report::{PairReport, pairs, ties},
@@ -277,13 +281,7 @@ impl Judgement {
         for (pair, report) in reports.iter().enumerate() {
             self.pair(problem, pair, report, [before, after]);
             self.passage(pair, &interferences[pair], after.time);
-            // Faces of one body share edges, where the pair of either of them feels contact.
-            let own = &problem.model.pairs[pair];
-            let beside = problem.model.pairs.iter().zip(&reports);
-            let felt = beside.filter(|(other, _)| own.is_beside(other));
-            let pressure = felt.map(|(_, report)| report.max_pressure);
-            let pressure = pressure.fold(0.0, f64::max);
-            self.penetration(problem, pair, (after, in_step), pressure);
+            self.penetration(problem, pair, (after, in_step), report.max_pressure);
         }
         for overlap in overlaps {
             let share = overlap.found.share();
@@ -407,6 +405,17 @@ impl Judgement {
             let worn = deepest(&after.pairs[pair].tractions.worn);
             inside = beyond(inside, meant_depth(problem, pair, worn), bound);
         }
+        if unfelt && !inside.is_empty() {
+            // Faces of a body share edges, where the pair of either of them feels contact.
+            let pressed = pressed_nodes(problem, after);
+            inside.retain(|found| match found.spot {
+                Spot::Node(node) => {
+                    let node = problem.surface_node(pair, found.side, node);
+                    node.is_none_or(|node| !pressed.contains(&node))
+                }
+                Spot::Centre(_) => true,
+            });
+        }
         let depths = inside.iter().map(|found| found.share());
         let deepest = depths.fold(0.0, f64::max);
         self.note(Kind::Penetration, Some(pair), deepest, time);
@@ -495,6 +504,18 @@ impl Judgement {
 
 /// Square of strains that are round-off, or as good as that.
 const STRAIN_SQUARED: f64 = 2e-11;
+
+/// Nodes that some pair presses.
+fn pressed_nodes(problem: &Problem, state: &State) -> BTreeSet<GlobalNode> {
+    let pairs = state.pairs.iter().enumerate();
+    let sides = pairs.flat_map(|(pair, of)| Side::BOTH.map(|side| (pair, side, &of.nodes[side])));
+    let nodes = sides.flat_map(|(pair, side, nodes)| {
+        let pressed = nodes.iter().enumerate().filter(|(_, of)| of.pressure > 0.0);
+        pressed
+            .filter_map(move |(node, _)| problem.surface_node(pair, side, SurfaceNode::new(node)))
+    });
+    nodes.collect()
+}
 
 /// Pressure below which all is round-off: that of strains of 4e-6 or less in the stiffer one of the
 /// sides. What is judged at a millionth of it is 2e4 units in the last place of its modulus.
