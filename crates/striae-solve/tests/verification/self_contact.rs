@@ -6,7 +6,7 @@ use striae_contact::{side::Side, unknowns::Status};
 use striae_law::friction::Friction;
 use striae_mesh::{CellBlock, Mesh, NodeId, Vec3};
 use striae_solve::{
-    model::{LoadExtent, LoadKind, Model},
+    model::{LoadExtent, LoadKind, Model, Step},
     outcome::Ending,
 };
 use striae_surface::texture::{Field, Lines, Paint};
@@ -141,6 +141,20 @@ fn a_wall_touches_the_rest_of_its_body_as_the_other_wall() {
     assert!(apart.iter().all(|apart| *apart < 1e-12), "{apart:?}");
 }
 
+/// Steps that hold the first nodes, press the second ones by a way along `z`, and drag them.
+fn pressed_and_dragged(model: &Model, [held, moved]: [(&str, &str); 2], way: f64) -> [Step; 2] {
+    let mut press = step();
+    press.increments = increments(0.25, 1e-3);
+    press.displacements = vec![
+        model.hold(held.0, held.1, [Some(0.0); 3]),
+        model.hold(moved.0, moved.1, [Some(0.0), Some(0.0), Some(way)]),
+    ];
+    let mut drag = step();
+    drag.increments = increments(0.25, 1e-3);
+    drag.displacements = vec![model.hold(moved.0, moved.1, [Some(0.1), Some(0.03), Some(way)])];
+    [press, drag]
+}
+
 #[test]
 fn two_pieces_of_one_body_touch_as_two_bodies_do() {
     let blocks = [
@@ -150,15 +164,7 @@ fn two_pieces_of_one_body_touch_as_two_bodies_do() {
     let meshes = blocks.map(|block| block.mesh().unwrap());
     // The load is on what the upper block leaves uncovered.
     let pressed = |mut model: Model, [base, top, face]: [(&str, &str); 3]| {
-        let mut press = step();
-        press.increments = increments(0.25, 1e-3);
-        press.displacements = vec![
-            model.hold(base.0, base.1, [Some(0.0); 3]),
-            model.hold(top.0, top.1, [Some(0.0), Some(0.0), Some(-0.02)]),
-        ];
-        let mut drag = step();
-        drag.increments = increments(0.25, 1e-3);
-        drag.displacements = vec![model.hold(top.0, top.1, [Some(0.1), Some(0.03), Some(-0.02)])];
+        let [press, mut drag] = pressed_and_dragged(&model, [base, top], -0.02);
         let pressure = LoadKind::Pressure(0.03);
         drag.loads = vec![model.load(face.0, face.1, pressure, LoadExtent::Exposed)];
         model.steps = vec![press, drag];
@@ -231,17 +237,8 @@ fn a_prescribed_wall_is_touched_as_that_of_another_body() {
         block([0.2, 0.2, 0.5], [0.6, 0.6, 0.5], [3, 3, 2]),
     ];
     let meshes = meshes.map(|block| block.mesh().unwrap());
-    let pressed = |mut model: Model, [wall, top]: [(&str, &str); 2]| {
-        let mut press = step();
-        press.increments = increments(0.25, 1e-3);
-        press.displacements = vec![
-            model.hold(wall.0, wall.1, [Some(0.0); 3]),
-            model.hold(top.0, top.1, [Some(0.0), Some(0.0), Some(-0.05)]),
-        ];
-        let mut drag = step();
-        drag.increments = increments(0.25, 1e-3);
-        drag.displacements = vec![model.hold(top.0, top.1, [Some(0.1), Some(0.03), Some(-0.05)])];
-        model.steps = vec![press, drag];
+    let pressed = |mut model: Model, ends: [(&str, &str); 2]| {
+        model.steps = pressed_and_dragged(&model, ends, -0.05).into();
         completed(model)
     };
     let [lower, upper] = meshes.clone();
