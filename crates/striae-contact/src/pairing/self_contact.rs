@@ -37,9 +37,9 @@ const WEDGE: f64 = 0.1;
 /// Position of two facets of a body to each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Neighbourhood {
-    /// They share a node of the mesh.
+    /// With a common node of the mesh.
     Around,
-    /// They have no node in common.
+    /// Without one.
     Apart,
 }
 

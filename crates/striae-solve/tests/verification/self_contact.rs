@@ -206,7 +206,7 @@ fn two_pieces_of_one_body_touch_as_two_bodies_do() {
 #[test]
 fn a_block_that_is_pressed_flat_does_not_touch_through_itself() {
     let pressed = |touches: bool| {
-        let cube = block([0.0; 3], [1.0, 1.0, 1.0], [2, 2, 2]).mesh().unwrap();
+        let cube = block([0.0; 3], [1.0; 3], [1, 1, 1]).mesh().unwrap();
         let mut model = model(vec![body("cube", with_skin(cube), rubber(1.0, 0.2))]);
         if touches {
             model.touch_itself("cube", &["skin"], coulomb(0.3));
@@ -215,14 +215,17 @@ fn a_block_that_is_pressed_flat_does_not_touch_through_itself() {
         press.increments = increments(0.05, 1e-3);
         press.displacements = vec![
             model.hold("cube", "zmin", [Some(0.0); 3]),
-            model.hold("cube", "zmax", [None, None, Some(-0.7)]),
             model.hold("cube", "xmin", [Some(0.0), None, None]),
             model.hold("cube", "ymin", [None, Some(0.0), None]),
         ];
+        let pressure = LoadKind::Pressure(1.0);
+        press.loads = vec![model.load("cube", "zmax", pressure, LoadExtent::Whole)];
         model.steps = vec![press];
         completed(model)
     };
     let [touching, bare] = [true, false].map(pressed);
+    let height = bare.last().positions.iter().map(|x| x.z).fold(0.0, f64::max);
+    assert!(height < 0.45, "{height}");
     let apart = apart(&touching, &bare);
     assert!(apart.iter().all(|apart| *apart < 1e-12), "{apart:?}");
     let nodes = touching.last().pairs[0].nodes.iter().flatten();
