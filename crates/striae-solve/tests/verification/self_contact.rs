@@ -224,7 +224,12 @@ fn a_block_that_is_pressed_flat_does_not_touch_through_itself() {
         completed(model)
     };
     let [touching, bare] = [true, false].map(pressed);
-    let height = bare.last().positions.iter().map(|x| x.z).fold(0.0, f64::max);
+    let height = bare
+        .last()
+        .positions
+        .iter()
+        .map(|x| x.z)
+        .fold(0.0, f64::max);
     assert!(height < 0.45, "{height}");
     let apart = apart(&touching, &bare);
     assert!(apart.iter().all(|apart| *apart < 1e-12), "{apart:?}");
