@@ -305,6 +305,23 @@ TYPE_ERRORS: list[tuple[Callable[[], Any], str]] = [
         "LinearElastic: it has no argument `density`; its arguments are `youngs_modulus`,"
         " `poissons_ratio`; the key `density` of decks is density of a Body or a Section",
     ),
+    (
+        lambda: st.Body("pad", st.block(), facet_sets={}),  # type: ignore[call-arg]
+        "Body: it has no argument `facet_sets`; its arguments are `name`, `mesh`, `material`,"
+        " `sections`, `density`, `contact_mass`, `formulation`; the key `facet_sets` of decks is"
+        " facet_sets of the Mesh, or body.add_set",
+    ),
+    (
+        lambda: st.Model(contact="all"),  # type: ignore[call-arg]
+        "Model: it has no argument `contact`; its arguments are `bodies`, `rigid`, `pairs`, `ties`,"
+        " `springs`, `cavities`, `steps`, `title`, `solver`; the key `contact` of decks is"
+        " model.contact_all(...)",
+    ),
+    (
+        lambda: st.Section(elements="core", set=3),  # type: ignore[call-arg]
+        "Section: it has no argument `set`; its arguments are `elements`, `material`, `density`,"
+        " `formulation`",
+    ),
     (lambda: st.Friction(), "use one of the laws, such as Coulomb, or OwnFriction"),
 ]
 

@@ -8,9 +8,10 @@ from typing import Optional, TypeAlias, Union
 from . import _check as check
 from ._check import Vector
 from ._errors import refuse
+from ._made import Strict
 
 
-class NormalAxis:
+class NormalAxis(Strict):
     """One axis, for the component ``x`` of a displacement: nodes slide on a plane where it is
     held."""
 
@@ -26,7 +27,7 @@ class NormalAxis:
         return f"NormalAxis({self.normal})"
 
 
-class CylindricalAxes:
+class CylindricalAxes(Strict):
     """Radial, tangential and axial directions for the components ``x``, ``y`` and ``z`` of a
     displacement, at the position at rest of each node. They stay as the node moves; tangential
     components are lengths, positive by the right-hand rule about the axis."""

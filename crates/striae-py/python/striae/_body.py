@@ -11,6 +11,7 @@ from . import _striae as native
 from ._axes import Axes, vectors_of
 from ._check import Curve, Members, Motion, Varying, VaryingVector, Vector
 from ._errors import refuse
+from ._made import Strict
 from ._material import Material
 from ._mesh import Mesh, listed
 from ._section import FORMULATIONS, Formulation, Section
@@ -177,7 +178,7 @@ class BodySet:
         return f"{self.body.name}[{self.name!r}]"
 
 
-class Body:
+class Body(Strict):
     """A deformable body."""
 
     name: str

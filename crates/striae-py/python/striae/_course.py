@@ -7,9 +7,10 @@ from typing import Any, Literal, Optional, Union
 
 from . import _check as check
 from ._errors import refuse
+from ._made import Strict
 
 
-class Course:
+class Course(Strict):
     """A curve for conditions to change along, beyond those that have a name.
 
     >>> shake = Course("sin(2*pi*t)")

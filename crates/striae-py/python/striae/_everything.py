@@ -9,6 +9,7 @@ from . import _check as check
 from . import _striae as native
 from ._body import Body, BodySet
 from ._friction import Friction
+from ._made import Strict
 from ._rigid import Rigid
 from ._texture import Texture
 
@@ -21,7 +22,7 @@ Excluded: TypeAlias = Union[Surface, tuple[Surface, Surface]]
 FEATURE_ANGLE = 45.0
 
 
-class Everything:
+class Everything(Strict):
     """Contact of everything with everything, as :meth:`Model.contact_all` states it."""
 
     def __init__(

@@ -10,15 +10,22 @@ from typing import Any, Optional, TypeAlias
 Recipe: TypeAlias = tuple[Callable[..., Any], tuple[Any, ...], dict[str, Any]]
 
 
-class Made:
+class Strict:
+    """Base of classes that name their arguments, and counterparts of keys of decks, when refusing."""
+
+    def __new__(cls, *arguments: Any, **named: Any) -> Any:
+        unknown(cls, named)
+        return super().__new__(cls)
+
+
+class Made(Strict):
     """Base of objects that are copied and pickled by their constructor arguments."""
 
     #: ``None`` if the object was not made by its class.
     _recipe: Optional[Recipe]
 
     def __new__(cls, *arguments: Any, **named: Any) -> Any:
-        unknown(cls, named)
-        made = super().__new__(cls)
+        made = super().__new__(cls, *arguments, **named)
         made._recipe = (cls, arguments, named)
         return made
 
@@ -28,8 +35,20 @@ class Made:
         return again, self._recipe
 
 
-#: Counterparts in Python of keys of decks in tables of materials, laws and surfaces.
+#: Counterparts in Python of keys of decks.
 ELSEWHERE = {
+    "all": "model.contact_all(...)",
+    "body": "an entry of the list bodies",
+    "contact": "model.contact_all(...)",
+    "facet_sets": "facet_sets of the Mesh, or body.add_set",
+    "facets": "body['top']",
+    "generator": "block, cylinder and others, which return a Mesh",
+    "increments": "increments of a Step",
+    "node_sets": "node_sets of the Mesh, or body.add_set",
+    "nodes": "body['top']",
+    "output": "arguments of model.run",
+    "pair": "an entry of the list pairs",
+    "step": "an entry of the list steps",
     "density": "density of a Body or a Section",
     "fibres": "Fibrous(ground, fibres)",
     "lambda": "youngs_modulus and poissons_ratio",

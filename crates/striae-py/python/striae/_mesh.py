@@ -14,6 +14,7 @@ from . import _check as check
 from . import _striae as native
 from ._check import Floats, Ints, Members, Vector
 from ._errors import refuse
+from ._made import Strict
 
 #: Kinds of cells, by their names in meshio, and their corners.
 KINDS = {"hexahedron": 8, "wedge": 6, "pyramid": 5, "tetra": 4, "tetra10": 10}
@@ -28,7 +29,7 @@ def frozen(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
     return array
 
 
-class Mesh:
+class Mesh(Strict):
     """Hexahedra, wedges, pyramids and tetrahedra with named sets of nodes, facets and elements.
 
     The sets ``all`` of facets and of elements always exist. A mesh does not change:

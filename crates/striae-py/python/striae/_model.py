@@ -18,6 +18,7 @@ from ._errors import refuse
 from ._everything import FEATURE_ANGLE, Everything, Excluded, Surface
 from ._friction import Friction
 from ._laws import Frictionless
+from ._made import Strict
 from ._mesh import Mesh
 from ._pair import Pair, _change
 from ._rigid import Rigid
@@ -29,7 +30,7 @@ from ._tie import Tie
 BACKENDS = ("condensed", "multifrontal", "faer", "iterative")
 
 
-class Solver:
+class Solver(Strict):
     """Newton's method and the linear solver."""
 
     def __init__(
@@ -111,7 +112,7 @@ class Advice(NamedTuple):
         return "\n".join(f"{kind}: {one.text}" for kind, remarks in kinds for one in remarks)
 
 
-class Model:
+class Model(Strict):
     """A simulation model. Quantities are in one consistent system of units of your choice."""
 
     _title: str

@@ -6,13 +6,14 @@ from typing import Literal, Optional
 
 from . import _check as check
 from . import _striae as native
+from ._made import Strict
 from ._material import Material
 
 Formulation = Literal["standard", "mean-dilatation", "assumed-strain"]
 FORMULATIONS = ("standard", "mean-dilatation", "assumed-strain")
 
 
-class Section:
+class Section(Strict):
     """Elements of a body with their own material."""
 
     def __init__(
