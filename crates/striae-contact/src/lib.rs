@@ -46,6 +46,7 @@ mod wear_rows;
 mod weighted;
 
 pub mod bedding;
+pub mod body_edge;
 pub mod complementarity;
 pub mod component;
 pub mod configuration;

@@ -65,12 +65,14 @@ pub struct Enclosure {
 }
 
 /// The body behind a facet.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Behind {
     /// Its thickness in the reference configuration, infinite where it has no end.
     pub thickness: f64,
     /// Its other side, if that is on a side of the pair.
     pub end: Option<End>,
+    /// Facets beyond an edge or a corner of the body, see [`crate::body_edge`].
+    pub beyond_edges: Vec<(Side, FacetId)>,
 }
 
 /// The end of a fibre through a body, on a side of the pair: the thickness follows the deformation.

@@ -285,9 +285,7 @@ fn of_facet(
             reach,
             segment,
         };
-        if is_near(&paired)
-            && (!one_body || self_contact::is_outside(configuration, &paired, neighbourhood))
-        {
+        if is_near(&paired) && (!one_body || self_contact::is_outside(configuration, &paired)) {
             found.push(paired);
         }
     }

@@ -7,14 +7,15 @@
 //! ```text
 //! back to back   -g_ij > min(t_i, t_j)/2
 //! hidden         {i, k} or {j, k} covers the middle of {i, j}, and is nearer by more than t_k/2
-//! around a node  i and j share one, and n_i . n_j > -.71 or -g_ij > .1 h
+//! around a node  i and j share one, and n_i . n_j > -.71 or it is an edge of the body
 //! ```
 //!
 //! Facets that share a node are folded onto each other once they stand at more than 135 degrees;
-//! leaving all of them out would leave the root of a slit without pressure. At an edge that becomes
-//! as sharp as that the body itself lies between them, and is as thin there as they are apart, not
-//! as thick as behind their middles. `h` is the size of the smaller facet: edges of 45 degrees have
-//! a mean gap of some tenths of it, folds overlap by thousandths.
+//! leaving all of them out would leave the root of a slit without pressure. At an edge of the body
+//! the body itself lies between them, and is as thin there as they are apart, not as thick as
+//! behind their middles. Which nodes are on edges is known from the reference configuration: a
+//! body may fold along a surface or a notch of it, but not along an edge, whose elements would
+//! have to be turned inside out.
 
 use std::collections::BTreeMap;
 
@@ -30,10 +31,6 @@ use crate::{
 
 /// Cosine between the normals of facets that share a node from which on they are folded.
 const FOLDED: f64 = -0.71;
-/// Depth over the size of a facet up to which facets that share a node are folded; beyond that the
-/// body is between them.
-const WEDGE: f64 = 0.1;
-
 /// Position of two facets of a body to each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Neighbourhood {
@@ -71,28 +68,19 @@ impl Neighbourhood {
 }
 
 /// Returns whether the body does not lie between two facets.
-pub(super) fn is_outside(
-    configuration: &Configuration,
-    paired: &PairedFacets,
-    neighbourhood: Neighbourhood,
-) -> bool {
-    let facets = places_of(paired);
-    let depths = facets.map(|(side, facet)| configuration.depth(side, facet));
-    let of_body = depths.fold(f64::INFINITY, f64::min);
-    let depth = match neighbourhood {
-        Neighbourhood::Around => of_body.min(WEDGE * size(paired)),
-        Neighbourhood::Apart => of_body,
+pub(super) fn is_outside(configuration: &Configuration, paired: &PairedFacets) -> bool {
+    let facets: Vec<(Side, FacetId)> = places_of(paired).collect();
+    let depths = facets
+        .iter()
+        .map(|&(side, facet)| configuration.depth(side, facet));
+    let is_beyond_edge = match facets[..] {
+        [(side, facet), other] => {
+            let behind = configuration.pair.sides[side].behind.get(facet.index());
+            behind.is_some_and(|behind| behind.beyond_edges.contains(&other))
+        }
+        _ => false,
     };
-    -paired.mean_gap(configuration) <= depth
-}
-
-/// Side of a square with the area of the smaller facet.
-fn size(paired: &PairedFacets) -> f64 {
-    let area = |[a, b, c, d]: [usize; 4]| {
-        let x = &paired.x;
-        0.5 * (x[c] - x[a]).cross(&(x[d] - x[b])).norm()
-    };
-    area([0, 1, 2, 3]).min(area([4, 5, 6, 7])).sqrt()
+    !is_beyond_edge && -paired.mean_gap(configuration) <= depths.fold(f64::INFINITY, f64::min)
 }
 
 /// Leaves out facets that face each other through another layer.
@@ -159,6 +147,7 @@ mod tests {
 
     use super::*;
     use crate::{
+        body_edge::beyond_edges,
         pair::{Behind, ContactPair, Enforcement, Geometry, PairedSurface},
         pairing::{Corners, Scope, compliances, paired_facets},
         placement::Placement,
@@ -209,15 +198,19 @@ mod tests {
 
     /// Mean gaps of the pairs of a surface with these thicknesses behind its facets.
     fn found(facets: &[[NodeId; 4]], x: Vec<Vec3>, of_facets: Vec<f64>) -> Vec<f64> {
+        let surface = Surface::new(facets);
+        let [beyond_edges, _] = beyond_edges([Some(&surface), None], |node| x[node.index()]);
         let side = |geometry: Geometry, thickness: Vec<f64>| PairedSurface {
             geometry,
             stiffness: 1.0,
             texture: None,
             behind: thickness
                 .into_iter()
-                .map(|thickness| Behind {
+                .zip(&beyond_edges)
+                .map(|(thickness, beyond_edges)| Behind {
                     thickness,
                     end: None,
+                    beyond_edges: beyond_edges.clone(),
                 })
                 .collect(),
             enclosure: None,
@@ -225,7 +218,7 @@ mod tests {
         let pair = ContactPair {
             name: "sheets".to_owned(),
             sides: [
-                side(Geometry::Deformable(Surface::new(facets)), of_facets),
+                side(Geometry::Deformable(surface), of_facets),
                 side(Geometry::Itself, Vec::new()),
             ],
             enforcement: Enforcement::Weighted,
@@ -261,24 +254,20 @@ mod tests {
         }
     }
 
-    /// Two squares with a common edge, at 20 degrees: outer sides of a wedge, whose body is between
-    /// them, or inner sides of a fold.
+    /// Two squares with a common edge, at 20 degrees: outer sides of an edge of the body, or inner
+    /// sides of a fold.
     #[test]
     fn the_sides_of_a_sharp_edge_do_not_touch_through_the_body() {
         let (sine, cosine) = 20f64.to_radians().sin_cos();
-        let places = |half: f64| {
-            let at = |x: f64, z: f64| [0.0, 1.0].map(|y| Vec3::new(x, y, z) * half);
-            [at(0.0, 0.0), at(1.0, 0.0), at(cosine, sine)].concat()
-        };
+        let at = |x: f64, z: f64| [0.0, 0.5].map(|y| Vec3::new(x, y, z));
+        let x = [at(0.0, 0.0), at(0.5, 0.0), at(0.5 * cosine, 0.5 * sine)].concat();
         let node = NodeId::new;
         let lower = [node(0), node(1), node(3), node(2)];
         let upper = [node(0), node(4), node(5), node(1)];
         let turned = |[a, b, c, d]: [NodeId; 4]| [a, d, c, b];
         let thick = vec![1.0; 2];
-        // Within the search distance.
-        let x = places(0.5);
-        let wedge = found(&[lower, upper], x.clone(), thick.clone());
-        assert!(wedge.is_empty(), "{wedge:?}");
+        let edge = found(&[lower, upper], x.clone(), thick.clone());
+        assert!(edge.is_empty(), "{edge:?}");
         let fold = found(&[turned(lower), turned(upper)], x, thick);
         assert!(fold.len() == 1 && fold[0] > 0.0, "{fold:?}");
     }

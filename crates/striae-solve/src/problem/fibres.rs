@@ -1,6 +1,7 @@
 //! Fibres through what is behind the facets of pairs.
 
 use striae_contact::{
+    body_edge::beyond_edges,
     interference::{Fibre, fibres, lengths},
     pair::{Behind, End},
     side::Side,
@@ -32,23 +33,39 @@ pub(crate) fn add_fibres(model: &Model, pairs: &mut [PairGeometry]) {
             let skin = skins[body].get_or_insert_with(|| skin(body));
             of_body(&model.bodies[body].mesh.positions, surface, skin)
         });
-        if pair.contact.is_in_one_body() {
-            for side in Side::BOTH {
-                let own = pair.bodies[side].zip(pair.contact.sides[side].surface());
-                let Some((body, surface)) = own else { continue };
-                let positions = &model.bodies[body].mesh.positions;
-                let at = |node: NodeId| positions[node.index()];
-                let x: Vec<Vec3> = surface.nodes().iter().map(|node| at(*node)).collect();
-                let thickness = lengths(surface, &x, &pair.fibres[side], at).into_iter();
-                let through = thickness.zip(&pair.fibres[side]);
-                let behind = through.map(|(thickness, fibre)| Behind {
-                    thickness,
-                    end: fibre.as_ref().and_then(|fibre| end(pair, body, fibre)),
-                });
-                pair.contact.sides[side].behind = behind.collect();
+        if pair.contact.is_in_one_body()
+            && let Some(body) = pair.bodies[Side::A]
+        {
+            let behind = behind(&model.bodies[body].mesh.positions, pair, body);
+            for (side, behind) in Side::BOTH.into_iter().zip(behind) {
+                pair.contact.sides[side].behind = behind;
             }
         }
     }
+}
+
+/// The body behind the facets of the sides of a pair within it.
+fn behind(positions: &[Vec3], pair: &PairGeometry, body: usize) -> [Vec<Behind>; 2] {
+    let at = |node: NodeId| positions[node.index()];
+    let surfaces = Side::BOTH.map(|side| pair.contact.sides[side].surface());
+    let mut beyond_edges = beyond_edges(surfaces, at);
+    Side::BOTH.map(|side| {
+        let Some(surface) = surfaces[side] else {
+            return Vec::new();
+        };
+        let x: Vec<Vec3> = surface.nodes().iter().map(|node| at(*node)).collect();
+        let thickness = lengths(surface, &x, &pair.fibres[side], at);
+        let through = thickness.into_iter().zip(&pair.fibres[side]);
+        let beyond_edges = std::mem::take(&mut beyond_edges[side]);
+        let behind = through
+            .zip(beyond_edges)
+            .map(|((thickness, fibre), beyond_edges)| Behind {
+                thickness,
+                end: fibre.as_ref().and_then(|fibre| end(pair, body, fibre)),
+                beyond_edges,
+            });
+        behind.collect()
+    })
 }
 
 /// The end of a fibre on a side of a pair that is of its body.
