@@ -18,6 +18,7 @@
 //!
 //! Longer than other files, as it holds the whole audit of where the points of a pair are.
 
+mod crossing;
 mod facing;
 mod nearest;
 mod overlap;
@@ -32,6 +33,7 @@ use striae_surface::{
     topology::{Surface, distinct_corners},
 };
 
+pub use crossing::{Crossing, MovingSkins};
 pub use facing::{Facing, across, facing};
 pub use nearest::{Nearest, Standing};
 pub use overlap::{Overlap, PlacedSkins, Skins};

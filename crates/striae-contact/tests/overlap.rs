@@ -2,7 +2,7 @@
 
 use nalgebra::Rotation3;
 use proptest::prelude::*;
-use striae_contact::interference::{Overlap, PlacedSkins, Skins, Spot};
+use striae_contact::interference::{MovingSkins, Overlap, PlacedSkins, Skins, Spot};
 use striae_mesh::{CellBlock, Mesh, NodeId, Vec3, generate::Block};
 use striae_surface::topology::Surface;
 
@@ -186,5 +186,61 @@ proptest! {
         let bitten = bitten(2.0, bite);
         let (_, found) = moved(&[jaw(6, 2)], |x| wave(&bitten(x)));
         prop_assert_eq!(found, []);
+    }
+}
+
+/// Plates above each other, a tenth of a facet thick and as far apart.
+fn plates() -> (Skins, Vec<Vec3>) {
+    let plate = |z: f64, shift: f64| block([shift, shift, z], [3.0, 3.0, 0.1], [3, 3, 1]);
+    skins(&[plate(0.0, 0.0), plate(0.2, 0.3)])
+}
+
+/// Bodies of the points that go through another one while the upper plate moves.
+fn crossed(way: impl Fn(&Vec3) -> Vec3) -> (usize, usize) {
+    let (skins, x) = plates();
+    let moved = |x: &Vec3| if x.z > 0.15 { way(x) } else { *x };
+    let end: Vec<Vec3> = x.iter().map(moved).collect();
+    let found = MovingSkins::new(&skins, [&x, &end]).crossings(|_, _| true);
+    let of = |body: usize| found.iter().filter(|f| skins.body(f.spot) == body).count();
+    (of(0), of(1))
+}
+
+#[test]
+fn plates_go_through_each_other_where_no_point_is_deep_inside() {
+    let down = |way: f64| move |x: &Vec3| x - Vec3::z() * way;
+    assert_eq!(crossed(down(0.05)), (0, 0));
+    // Into the other one, not through it.
+    assert_eq!(crossed(down(0.15)), (0, 0));
+    let (lower, upper) = crossed(down(0.4));
+    assert!(lower > 16 && upper > 16, "{lower} {upper}");
+    // Crossed like the blades of scissors: all of one side is through, but for its border.
+    let (lower, upper) = crossed(|x| x - Vec3::z() * (0.4 * (x.x - 0.3) / 3.0));
+    assert!(lower > 4 && upper > 4, "{lower} {upper}");
+    let (lower, upper) = crossed(|x| x + Vec3::new(5.0, 0.0, 0.0));
+    assert_eq!((lower, upper), (0, 0));
+}
+
+#[test]
+fn points_that_are_inside_already_go_through_as_well() {
+    let (skins, x) = plates();
+    let at = |way: f64| -> Vec<Vec3> {
+        let down = |x: &Vec3| x - Vec3::z() * if x.z > 0.15 { way } else { 0.0 };
+        x.iter().map(down).collect()
+    };
+    for (start, end, goes_through) in [(0.12, 0.14, false), (0.12, 0.05, false), (0.12, 0.4, true)]
+    {
+        let found = MovingSkins::new(&skins, [&at(start), &at(end)]).crossings(|_, _| true);
+        assert_eq!(!found.is_empty(), goes_through, "{start} {end}");
+    }
+}
+
+#[test]
+fn a_body_that_turns_goes_through_nothing() {
+    let (skins, x) = plates();
+    for angle in [0.3, 1.5, 3.0] {
+        let turn = Rotation3::from_euler_angles(angle, 0.4 * angle, -0.7 * angle);
+        let end: Vec<Vec3> = x.iter().map(|x| turn * x).collect();
+        let found = MovingSkins::new(&skins, [&x, &end]).crossings(|_, _| true);
+        assert_eq!(found, [], "{angle}");
     }
 }

@@ -388,6 +388,7 @@ fn stopped(
     let found = match reason {
         CutBack::NotBridged { .. }
         | CutBack::Overlap { .. }
+        | CutBack::Crossing { .. }
         | CutBack::Free { .. }
         | CutBack::Factor { .. } => None,
         CutBack::Released { .. } => limit(),

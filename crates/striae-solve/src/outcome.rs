@@ -146,6 +146,18 @@ pub enum CutBack {
         /// `true` if the body may touch itself there.
         is_joined: bool,
     },
+    /// A body has gone through itself or another one, where no contact kept them apart.
+    #[error("{}", crossing_text([body, other], *node, *is_joined))]
+    Crossing {
+        /// Name of the body that has gone through.
+        body: String,
+        /// The node, or one of the facet, that has.
+        node: striae_mesh::NodeId,
+        /// Name of the body that it has gone through.
+        other: String,
+        /// `true` if the body may touch itself there.
+        is_joined: bool,
+    },
     /// Friction pushes a node along its slip.
     #[error(
         "pair `{pair}`: friction pushes {node} of `{body}` in the direction of its slip and gains the energy {work:.1e}, {:.0} % of the frictional work at the nodes around it",
@@ -268,6 +280,24 @@ pub enum Start {
     Inside,
 }
 
+fn crossing_text([body, other]: [&str; 2], node: striae_mesh::NodeId, is_joined: bool) -> String {
+    let through = match body == other {
+        true => format!(
+            "body `{body}` passes through itself: {node} goes in and comes out on the other side"
+        ),
+        false => format!("{node} of `{body}` passes through `{other}`"),
+    };
+    match is_joined {
+        true => format!(
+            "{through} in the smallest increment; it snaps over there: give the step inertia with `dynamics = {{}}`, or refine the mesh"
+        ),
+        false => format!("{through}{UNJOINED}"),
+    }
+}
+
+/// Remedy where nothing keeps bodies apart.
+const UNJOINED: &str = ", and no pair joins the surfaces there; let everything touch (`all = true` of `[contact]`), add a pair, or keep them apart";
+
 fn overlap_text(
     [body, other]: [&str; 2],
     node: striae_mesh::NodeId,
@@ -280,9 +310,7 @@ fn overlap_text(
     };
     match is_joined {
         true => format!("{through}, more than half its facets; refine the mesh there"),
-        false => format!(
-            "{through}, and no pair joins the surfaces there; let everything touch (`all = true` of `[contact]`), add a pair, or keep them apart"
-        ),
+        false => format!("{through}{UNJOINED}"),
     }
 }
 

@@ -8,7 +8,7 @@
 use std::collections::HashSet;
 
 use striae_contact::{
-    interference::{Overlap, PlacedSkins, SHARE, Skins, Spot},
+    interference::{MovingSkins, Overlap, PlacedSkins, SHARE, Skins, Spot},
     side::Side,
 };
 use striae_mesh::{FacetId, NodeId, Vec3};
@@ -52,6 +52,19 @@ pub struct BodyOverlap {
     pub other: usize,
     /// Depth at the start of the increment.
     pub before: f64,
+    /// `true` if the body may touch itself there.
+    pub is_joined: bool,
+}
+
+/// A point of a body that has gone through itself or another body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct BodyCrossing {
+    /// Body of the point.
+    pub body: usize,
+    /// Node of its mesh that it is, or a corner of the facet whose centre it is.
+    pub node: NodeId,
+    /// Body that it has gone through.
+    pub other: usize,
     /// `true` if the body may touch itself there.
     pub is_joined: bool,
 }
@@ -172,6 +185,26 @@ fn bodies_of(pair: &Pair) -> Option<[usize; 2]> {
         ) => Some([body.0.min(other.0), body.0.max(other.0)]),
         _ => None,
     }
+}
+
+/// First point that goes through a body where no pair sees it in an increment. Collective.
+pub(crate) fn crossing(
+    skin: &Skin,
+    share: &Share,
+    [start, end]: [&[Vec3]; 2],
+) -> Option<BodyCrossing> {
+    let [start, end] = [start, end].map(|positions| skin.places(share, positions));
+    let moving = MovingSkins::new(&skin.skins, [&start, &end]);
+    let judged = |spot: Spot, facet: FacetId| skin.is_judged(spot, facet);
+    let first = moving.crossings(judged).into_iter().next()?;
+    let (body, node) = skin.nodes[skin.skins.node(first.spot)];
+    let other = skin.skins.bodies[first.facet.index()];
+    Some(BodyCrossing {
+        body,
+        node,
+        other,
+        is_joined: body == other && skin.self_contact.contains(&body),
+    })
 }
 
 /// Overlaps that no pair sees and that are deeper than [`SHARE`] of the facet size at the end of

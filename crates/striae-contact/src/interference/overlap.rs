@@ -238,7 +238,7 @@ impl<'a> PlacedSkins<'a> {
     }
 
     /// Twice the area vector of a facet.
-    fn area(&self, facet: FacetId) -> Vec3 {
+    pub(super) fn area(&self, facet: FacetId) -> Vec3 {
         let fan = triangles(&self.skins.surface.facets()[facet.index()], |n| self.x[n]);
         fan.iter().map(twice_area).sum()
     }

@@ -76,7 +76,7 @@ pub(super) enum Through {
 }
 
 /// Cosine between the normals where a point goes in and out that makes it a way through.
-const OPPOSITE: f64 = -0.2;
+pub(super) const OPPOSITE: f64 = -0.2;
 /// Steps over a facet of relative motion, and most of them.
 const STEPS: f64 = 4.0;
 const MOST_STEPS: f64 = 64.0;

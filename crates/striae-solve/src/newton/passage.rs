@@ -9,7 +9,8 @@
 //! - by more than all of the facet size, whatever acts.
 //!
 //! Less is what weighted contact leaves between nodes, and a matter of [`crate::warning`]. Where no
-//! pair sees bodies inside themselves or others, half the facet size is the limit as well.
+//! pair sees bodies inside themselves or others, half the facet size is the limit as well, and
+//! nothing may go through and come out, which thin sheets do long before they are that deep.
 
 use striae_contact::{
     evaluation::Evaluation,
@@ -27,7 +28,7 @@ use crate::{
     interference::{Positions, between, beyond},
     model::PairId,
     outcome::{CutBack, Start},
-    skin::{BodyOverlap, overlaps},
+    skin::{BodyOverlap, crossing, overlaps},
 };
 
 /// Depth over the facet size from which on points inside are missed where nothing acts.
@@ -109,14 +110,20 @@ fn missed(
 /// Overlaps of bodies that no pair detects and that arose on the way to a trial state; collective.
 ///
 /// # Errors
-/// If some of them are deeper than half the facet size.
+/// If some of them are deeper than half the facet size, or a body has gone through another one.
 pub(super) fn overlap(setting: &Setting, trial: &Trial) -> Result<Vec<BodyOverlap>, CutBack> {
     let problem = setting.context.problem;
-    let overlaps = overlaps(
-        &problem.skin,
-        &problem.share,
-        [&setting.state.positions, &trial.positions],
-    );
+    let name = |body: usize| problem.model.bodies[body].name.clone();
+    let ends = [&setting.state.positions[..], &trial.positions[..]];
+    if let Some(crossing) = crossing(&problem.skin, &problem.share, ends) {
+        return Err(CutBack::Crossing {
+            body: name(crossing.body),
+            node: crossing.node,
+            other: name(crossing.other),
+            is_joined: crossing.is_joined,
+        });
+    }
+    let overlaps = overlaps(&problem.skin, &problem.share, ends);
     let deep = overlaps
         .iter()
         .filter(|overlap| overlap.found.share() > UNSEEN);
@@ -124,7 +131,6 @@ pub(super) fn overlap(setting: &Setting, trial: &Trial) -> Result<Vec<BodyOverla
     let Some(worst) = deep.max_by(|a, b| share(a).total_cmp(&share(b))) else {
         return Ok(overlaps);
     };
-    let name = |body: usize| problem.model.bodies[body].name.clone();
     Err(CutBack::Overlap {
         body: name(worst.body),
         node: worst.node,

@@ -141,3 +141,24 @@ fn bodies_without_a_pair_do_not_go_through_each_other_without_a_word() {
             .all(|warning| warning.kind == Kind::Overlap)
     );
 }
+
+#[test]
+fn sheets_do_not_go_through_each_other_in_one_increment() {
+    let sheet = |z: f64| block([0.0, 0.0, z], [2.0, 2.0, 0.05], [4, 4, 1]).mesh();
+    let mut model = model(vec![
+        body("lower", sheet(0.0).unwrap(), rubber(1.0, 0.3)),
+        body("upper", sheet(0.1).unwrap(), rubber(1.0, 0.3)),
+    ]);
+    let mut step = step();
+    step.increments = increments(1.0, 1.0);
+    step.displacements = vec![
+        model.hold("lower", "zmin", [Some(0.0); 3]),
+        model.hold("upper", "zmax", [Some(0.0), Some(0.0), Some(-0.25)]),
+    ];
+    model.steps = vec![step];
+    let said = Run::of(model).ending.to_string();
+    assert!(
+        said.contains("passes through `") && said.contains("no pair"),
+        "{said}"
+    );
+}
