@@ -381,3 +381,45 @@ fn a_run_that_is_killed_at_once_resumes() {
         .map(|folder| fs::read_to_string(path.join(folder).join("history.csv")).unwrap());
     assert_eq!(killed, whole);
 }
+
+#[test]
+fn decks_ask_for_derivatives_by_their_numbers() {
+    let place = place();
+    let path = "material.rubber.youngs_modulus";
+    let asked = format!("{DECK}[sensitivity]\nwrt = [\"mu\", \"{path}\", \"mu\"]\n");
+    fs::write(place.path().join("asked.toml"), asked).unwrap();
+    let run = |words: &[&str]| {
+        let output = striae(place.path(), words);
+        assert!(output.status.success(), "{}", stderr(&output));
+    };
+    run(&[
+        "run",
+        "deck.toml",
+        "--out",
+        "told",
+        "--wrt",
+        "mu",
+        "--wrt",
+        path,
+    ]);
+    run(&["run", "asked.toml", "--out", "asked", "--wrt", "mu"]);
+    for name in ["mu", path] {
+        let of = |folder: &str| {
+            let file = place.path().join(folder);
+            fs::read_to_string(file.join(format!("sensitivity-{name}.csv"))).unwrap()
+        };
+        assert_eq!(of("asked"), of("told"));
+        assert_eq!(of("asked").lines().count(), 4);
+    }
+    let misspelt = format!("{DECK}[sensitivity]\nwrt = [\"material.ruber.youngs_modulus\"]\n");
+    fs::write(place.path().join("asked.toml"), &misspelt).unwrap();
+    let line = misspelt.lines().count();
+    for command in ["check", "run"] {
+        let refused = striae(place.path(), &[command, "asked.toml"]);
+        assert_eq!(refused.status.code(), Some(2));
+        let said = stderr(&refused);
+        let expected = format!("asked.toml:{line}:8: `material.ruber.youngs_modulus` is no number");
+        assert!(said.contains(&expected), "{said}");
+        assert!(said.contains("did you mean `rubber`?"), "{said}");
+    }
+}

@@ -82,9 +82,9 @@ pub enum FaultKind {
         /// Names of its parameters.
         known: Vec<String>,
     },
-    /// A path by which a number is set leads nowhere.
+    /// A path to a number leads nowhere.
     #[error(
-        "`--set {path}=...` does not set a number of this deck; {place} has {}{}", or_none(known), did_you_mean(.nearest)
+        "`{path}` is no number of this deck; {place} has {}{}", or_none(known), did_you_mean(.nearest)
     )]
     UnknownPath {
         /// The path.
@@ -96,11 +96,8 @@ pub enum FaultKind {
         /// The most similar of them.
         nearest: Option<String>,
     },
-    /// A path by which a number is set leads to something else.
-    #[error(
-        "`--set {path}=...` can only set a number, but `{path}` is {found}{}",
-        with(known)
-    )]
+    /// A path to a number leads to something else.
+    #[error("`{path}` is no number but {found}{}", with(known))]
     NoNumber {
         /// The path.
         path: String,

@@ -51,6 +51,8 @@ pub struct Deck {
     pub model: Model,
     /// Output to be written.
     pub output: Output,
+    /// Numbers of the deck by which a run of it is differentiated: names of parameters, or paths.
+    pub wrt: Vec<String>,
     /// Notes on parts of mesh files that were interpreted or replaced, one line each.
     pub notes: Vec<String>,
     /// Locations of its named parts.
@@ -184,7 +186,7 @@ impl<'r> Reader<'r> {
             |tree, faults| {
                 let names = names.iter();
                 names
-                    .map(|name| settings::number(tree, name, faults))
+                    .map(|name| settings::number(tree, name, None, faults))
                     .collect()
             },
         );
@@ -232,7 +234,11 @@ fn simulation(
     faults: &mut FaultList<'_>,
 ) -> Option<raw::Simulation> {
     computed(text, included, settings, faults, |tree, faults| {
-        read::read_keys(tree, 0..0, &read::Place::root(), faults)
+        let raw: raw::Simulation = read::read_keys(tree, 0..0, &read::Place::root(), faults)?;
+        for name in raw.sensitivity.iter().flat_map(|at| at.value.names()) {
+            settings::number(tree, &name.value.0, Some(&name.span), faults);
+        }
+        Some(raw)
     })
 }
 

@@ -114,26 +114,40 @@ pub(crate) fn note(settings: &[Setting]) -> Option<String> {
 }
 
 /// Value of a parameter, or of the number at a path, in tables without expressions; a missing
-/// number is a fault.
-pub(crate) fn number(tree: &DeTable<'_>, name: &str, faults: &mut FaultList<'_>) -> Option<f64> {
+/// number is a fault, at the place that names it if there is one.
+pub(crate) fn number(
+    tree: &DeTable<'_>,
+    name: &str,
+    named_at: Option<&Span>,
+    faults: &mut FaultList<'_>,
+) -> Option<f64> {
     let path = match Setting::new(name, 0.0).parameter() {
         Some(parameter) => format!("{TABLE}.{parameter}"),
         None => name.to_owned(),
     };
-    finite(found(tree, &path, faults)?.get_ref())
+    match found(tree, &path) {
+        Ok(value) => finite(value.get_ref()),
+        Err((span, kind)) => {
+            faults.push(named_at.unwrap_or(&span), kind);
+            None
+        }
+    }
 }
 
 /// Location of the number at a path; a missing number is a fault.
 fn at(tree: &DeTable<'_>, path: &str, faults: &mut FaultList<'_>) -> Option<Span> {
-    found(tree, path, faults).map(toml::Spanned::span)
+    let missing = |(span, kind): (Span, FaultKind)| faults.push(&span, kind);
+    found(tree, path)
+        .map(toml::Spanned::span)
+        .map_err(missing)
+        .ok()
 }
 
-/// Number at a path; a missing number is a fault.
-fn found<'t, 'i>(
-    tree: &'t DeTable<'i>,
-    path: &str,
-    faults: &mut FaultList<'_>,
-) -> Option<&'t Value<'i>> {
+/// Number at a path.
+///
+/// # Errors
+/// What is there instead, and where.
+fn found<'t, 'i>(tree: &'t DeTable<'i>, path: &str) -> Result<&'t Value<'i>, (Span, FaultKind)> {
     let mut parts = keys(tree);
     let mut span = 0..0;
     let mut rest = path;
@@ -149,16 +163,14 @@ fn found<'t, 'i>(
         });
         let Some((value, after)) = fitting.min_by_key(|(_, after)| after.len()) else {
             let known: Vec<String> = parts.into_iter().map(|(name, _)| name).collect();
-            faults.push(&span, unknown(path, rest, known));
-            return None;
+            return Err((span, unknown(path, rest, known)));
         };
         span = value.span();
         if after.is_empty() {
             if is_number(value.get_ref()) {
-                return Some(value);
+                return Ok(value);
             }
-            faults.push(&span, no_number(path, value));
-            return None;
+            return Err((span, no_number(path, value)));
         }
         parts = held(value);
         rest = after;

@@ -127,7 +127,7 @@ fn paths_that_lead_to_no_number_are_refused_with_what_is_there() {
     for (setting, message) in [
         (
             "material.ruber.youngs_modulus=1",
-            "`--set material.ruber.youngs_modulus=...` does not set a number of this deck; `material` has `rubber`; did you mean `rubber`?",
+            "`material.ruber.youngs_modulus` is no number of this deck; `material` has `rubber`; did you mean `rubber`?",
         ),
         (
             "material.rubber.density=1",
@@ -144,15 +144,18 @@ fn paths_that_lead_to_no_number_are_refused_with_what_is_there() {
         ),
         (
             "material.rubber.law=1",
-            "deck.toml:10:7: `--set material.rubber.law=...` can only set a number, but `material.rubber.law` is the text \"neo-hookean\"",
+            "deck.toml:10:7: `material.rubber.law` is no number but the text \"neo-hookean\"",
         ),
         (
             "pair.sole.a=1",
-            "`pair.sole.a` is a table; it has `body`, `facets`",
+            "`pair.sole.a` is no number but a table; it has `body`, `facets`",
         ),
         ("parameters.l=1", "its [parameters] are `E`, `L`"),
         (".=1", "the deck has"),
-        ("material.=1", "`material.` is a list of 1; it has `rubber`"),
+        (
+            "material.=1",
+            "`material.` is no number but a list of 1; it has `rubber`",
+        ),
         (
             "material.rubber.poissons_ratio=0.7",
             "deck.toml:12:18: `poissons_ratio` in [[material]] must be",

@@ -64,7 +64,9 @@ pub enum Error {
     #[error(transparent)]
     Unlike(#[from] Unlike),
     /// Derivatives are asked for of a run that does not begin at rest on one rank.
-    #[error("derivatives are computed of runs that begin undeformed, in one process")]
+    #[error(
+        "derivatives, of `[sensitivity]` or `--wrt`, are computed of runs that begin undeformed, in one process"
+    )]
     NotFromTheStart,
     /// Results cannot be written or read.
     #[error(transparent)]

@@ -55,7 +55,7 @@ use crate::{
     observer::Observer,
     ranks::{Ranks, agreed},
     results::Results,
-    sensitivity::{Followed, Sensitivity},
+    sensitivity::{Followed, Sensitivity, of_deck},
 };
 use watch::Watch;
 
@@ -169,6 +169,9 @@ impl Simulation {
             None => deck.alone()?,
             Some(_) => deck,
         };
+        if !deck.wrt.is_empty() {
+            return Err(Error::NotFromTheStart);
+        }
         Ok(Self::of_valid(ranks, deck.model)?.writing(deck.output))
     }
 
@@ -198,12 +201,16 @@ impl Simulation {
     fn opened(
         ranks: Option<Arc<dyn Ranks>>,
         (path, settings): (&Path, &[Setting]),
-        deck: Deck,
+        mut deck: Deck,
         folder: PathBuf,
     ) -> Result<Self, Error> {
         let source = source(case_name(path), (path, settings), &deck.model, &deck.output);
         let case = source.case.clone();
-        let simulation = Self::of_on(ranks, deck)?;
+        let wrt = std::mem::take(&mut deck.wrt);
+        let mut simulation = Self::of_on(ranks, deck)?;
+        for name in wrt {
+            simulation = simulation.differentiated(of_deck(path, settings, &name)?);
+        }
         Ok(simulation.recorded(folder, case).with_source(source))
     }
 
@@ -352,9 +359,12 @@ impl Simulation {
     }
 
     /// Computes derivatives by a parameter, too, see [`crate::sensitivity`]; such a run begins
-    /// undeformed, on one rank, and writes no checkpoints.
+    /// undeformed, on one rank, and writes no checkpoints. Another parameter of the same name is
+    /// the same one.
     pub fn differentiated(mut self, by: Parameter) -> Self {
-        self.parameters.push(by);
+        if self.parameters.iter().all(|known| known.name != by.name) {
+            self.parameters.push(by);
+        }
         self
     }
 

@@ -101,10 +101,23 @@ pub(super) fn deck(raw: &raw::Simulation, base: &Path, faults: &mut FaultList<'_
     Some(Deck {
         model: fitted.ok()?,
         output,
+        wrt: differentiated(raw),
         notes,
         places: named::places(raw, faults),
         together: together(raw, faults),
     })
+}
+
+/// Names of the numbers that a run is differentiated by, each once.
+fn differentiated(raw: &raw::Simulation) -> Vec<String> {
+    let names = raw.sensitivity.iter().flat_map(|at| at.value.names());
+    let mut found: Vec<String> = Vec::new();
+    for name in names {
+        if !found.contains(&name.value.0) {
+            found.push(name.value.0.clone());
+        }
+    }
+    found
 }
 
 /// Notes on the parameters and on included files.

@@ -63,6 +63,9 @@ table! {
         optional step: Vec<At<Step>>,
         /// Output of the run.
         optional output: OutputSettings,
+        /// Derivatives of the history by numbers of this deck. Such a run is one process, begins
+        /// at rest and writes no checkpoints. Default: none.
+        optional sensitivity: Sensitivity,
         /// Newton's method and the linear solver.
         optional solver: SolverSettings,
     }

@@ -1,4 +1,4 @@
-//! `[output]` and `[solver]`.
+//! `[output]`, `[sensitivity]` and `[solver]`.
 
 use crate::{
     declare::{choice, either, table, words},
@@ -29,6 +29,23 @@ table! {
         /// Increments between checkpoints, from which `striae resume` continues; another one is
         /// written when a minute has passed; 0: only when the run stops. Default: 10.
         optional checkpoint_every: Whole<0>,
+    }
+}
+
+table! {
+    /// Derivatives of the run.
+    Sensitivity {
+        /// Numbers of this deck by which the columns of `history.csv` are differentiated, as with
+        /// `--wrt`: names of `[parameters]`, or paths such as `pair.pad.friction.mu`. Each has a
+        /// file `sensitivity-NAME.csv`.
+        required wrt: Vec<At<Text>>,
+    }
+}
+
+impl Sensitivity {
+    /// The numbers by which the history is differentiated, with their places.
+    pub(crate) fn names(&self) -> impl Iterator<Item = &At<Text>> {
+        self.wrt.iter().flat_map(|names| &names.value)
     }
 }
 
