@@ -1,4 +1,6 @@
-//! Parameters of decks from the command line: `--set`, sweeps, comparisons, JSON.
+//! Parameters of decks from the command line: `--set`, sweeps, comparisons, JSON, derivatives.
+//!
+//! Longer than other files, as all commands are tried on the same deck.
 
 use std::{
     fs,

@@ -1,7 +1,7 @@
 //! Points of skins that go through a body between two configurations.
 //!
-//! What is thinner than a facet has crossed something long before any of its points is deep inside
-//! it. Points and facets move in straight lines at a common pace, under which rigid motions pass
+//! Sheets that are thinner than a facet have crossed something long before any of their points is
+//! deep inside it. Points and facets move in straight lines at a common pace, under which rigid motions pass
 //! through nothing. A point has gone through a body if it comes out of its skin where the normal
 //! points against the one where it went in.
 
