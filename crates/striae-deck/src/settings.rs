@@ -113,6 +113,12 @@ pub(crate) fn note(settings: &[Setting]) -> Option<String> {
     (!paths.is_empty()).then(|| format!("set: {}", paths.join(", ")))
 }
 
+/// A path that leads to no number.
+struct Missing {
+    span: Span,
+    kind: FaultKind,
+}
+
 /// Value of a parameter, or of the number at a path, in tables without expressions; a missing
 /// number is a fault, at the place that names it if there is one.
 pub(crate) fn number(
@@ -127,8 +133,8 @@ pub(crate) fn number(
     };
     match found(tree, &path) {
         Ok(value) => finite(value.get_ref()),
-        Err((span, kind)) => {
-            faults.push(named_at.unwrap_or(&span), kind);
+        Err(missing) => {
+            faults.push(named_at.unwrap_or(&missing.span), missing.kind);
             None
         }
     }
@@ -136,18 +142,20 @@ pub(crate) fn number(
 
 /// Location of the number at a path; a missing number is a fault.
 fn at(tree: &DeTable<'_>, path: &str, faults: &mut FaultList<'_>) -> Option<Span> {
-    let missing = |(span, kind): (Span, FaultKind)| faults.push(&span, kind);
-    found(tree, path)
-        .map(toml::Spanned::span)
-        .map_err(missing)
-        .ok()
+    match found(tree, path) {
+        Ok(value) => Some(value.span()),
+        Err(missing) => {
+            faults.push(&missing.span, missing.kind);
+            None
+        }
+    }
 }
 
 /// Number at a path.
 ///
 /// # Errors
 /// What is there instead, and where.
-fn found<'t, 'i>(tree: &'t DeTable<'i>, path: &str) -> Result<&'t Value<'i>, (Span, FaultKind)> {
+fn found<'t, 'i>(tree: &'t DeTable<'i>, path: &str) -> Result<&'t Value<'i>, Box<Missing>> {
     let mut parts = keys(tree);
     let mut span = 0..0;
     let mut rest = path;
@@ -163,14 +171,16 @@ fn found<'t, 'i>(tree: &'t DeTable<'i>, path: &str) -> Result<&'t Value<'i>, (Sp
         });
         let Some((value, after)) = fitting.min_by_key(|(_, after)| after.len()) else {
             let known: Vec<String> = parts.into_iter().map(|(name, _)| name).collect();
-            return Err((span, unknown(path, rest, known)));
+            let kind = unknown(path, rest, known);
+            return Err(Box::new(Missing { span, kind }));
         };
         span = value.span();
         if after.is_empty() {
             if is_number(value.get_ref()) {
                 return Ok(value);
             }
-            return Err((span, no_number(path, value)));
+            let kind = no_number(path, value);
+            return Err(Box::new(Missing { span, kind }));
         }
         parts = held(value);
         rest = after;

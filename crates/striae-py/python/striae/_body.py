@@ -234,7 +234,7 @@ class Body(Strict):
 
     @classmethod
     def _known(cls, name: str, mesh: Mesh) -> Body:
-        body = cls.__new__(cls)
+        body = object.__new__(cls)
         body.name, body.mesh = name, mesh
         body.material, body.density, body._redistributed = None, None, False
         body._formulation, body.sections = None, ()

@@ -77,7 +77,7 @@ class Mesh(Strict):
 
     @classmethod
     def _of(cls, found: native.Mesh) -> Mesh:
-        mesh = cls.__new__(cls)
+        mesh = object.__new__(cls)
         mesh._native = found
         mesh._arrays = {}
         return mesh

@@ -177,7 +177,7 @@ class Model(Strict):
 
     @classmethod
     def _of(cls, base: native.Model) -> Model:
-        model = cls.__new__(cls)
+        model = object.__new__(cls)
         model._begin(base.title)
         model._base, model._earlier = base, base.steps()
         names = enumerate(base.bodies())
@@ -502,7 +502,7 @@ class Model(Strict):
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Model:
         """A model with the same parts, to which other steps can be added."""
-        made = type(self).__new__(type(self))
+        made = object.__new__(type(self))
         made.__dict__.update(self.__dict__)
         made._bodies = [copy.copy(body) for body in self._bodies]
         made._rigid, made._pairs = list(self._rigid), list(self._pairs)
