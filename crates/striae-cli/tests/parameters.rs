@@ -425,3 +425,21 @@ fn decks_ask_for_derivatives_by_their_numbers() {
         assert!(said.contains("did you mean `rubber`?"), "{said}");
     }
 }
+
+#[test]
+fn derivatives_are_refused_where_a_run_goes_on() {
+    let place = place();
+    let run = striae(place.path(), &["run", "deck.toml", "--out", "out"]);
+    assert!(run.status.success(), "{}", stderr(&run));
+    let further = format!("{DECK}[sensitivity]\nwrt = [\"mu\"]\n");
+    fs::write(place.path().join("further.toml"), further).unwrap();
+    let words = ["resume", "out", "--with", "further.toml", "--out", "on"];
+    let refused = striae(place.path(), &words);
+    assert_eq!(refused.status.code(), Some(2), "{}", stderr(&refused));
+    assert!(
+        stderr(&refused).contains("`[sensitivity]`"),
+        "{}",
+        stderr(&refused)
+    );
+    assert!(!place.path().join("on").exists());
+}

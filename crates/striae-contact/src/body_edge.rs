@@ -12,9 +12,15 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use striae_mesh::{FacetId, NodeId, Vec3};
-use striae_surface::topology::{Surface, distinct_corners};
+use striae_surface::{
+    facet::Shape,
+    topology::{Surface, distinct_corners},
+};
 
-use crate::side::Side;
+use crate::{
+    segment::{Facet, facet_normal},
+    side::Side,
+};
 
 /// Cosine between the normals of facets up to which a border between them is an edge.
 const EDGE: f64 = 0.71;
@@ -22,62 +28,65 @@ const EDGE: f64 = 0.71;
 const ROUND_OFF: f64 = 1e-9;
 
 /// A facet in the reference configuration.
-struct Facet {
+struct Meshed {
     place: (Side, FacetId),
+    nodes: Vec<NodeId>,
     centre: Vec3,
     normal: Vec3,
 }
 
-/// Returns, by side and facet, the facets beyond edges and corners of the body that both surfaces
-/// are of; `x` returns the positions of nodes in the reference configuration.
+/// Facets beyond edges and corners of the body that both surfaces are of, by side and facet; `x`
+/// returns the positions of nodes in the reference configuration.
 pub fn beyond_edges(
     surfaces: [Option<&Surface>; 2],
     x: impl Fn(NodeId) -> Vec3,
 ) -> [Vec<Vec<(Side, FacetId)>>; 2] {
+    let sides = Side::BOTH.into_iter().zip(surfaces);
+    let facets: Vec<Meshed> = sides
+        .filter_map(|(side, surface)| Some(meshed(side, surface?, &x)))
+        .flatten()
+        .collect();
     let mut around: BTreeMap<NodeId, Vec<usize>> = BTreeMap::new();
-    let mut facets = Vec::new();
-    let mut nodes_of = Vec::new();
-    for (side, surface) in Side::BOTH.into_iter().zip(surfaces) {
-        for (at, corners) in surface.iter().flat_map(|s| s.facets()).enumerate() {
-            let ring = distinct_corners(corners);
-            let nodes = ring
-                .iter()
-                .map(|&node| surface.expect("it has facets").nodes()[node]);
-            let nodes: Vec<NodeId> = nodes.collect();
-            let places: Vec<Vec3> = nodes.iter().map(|node| x(*node)).collect();
-            let normal = match places[..] {
-                [a, b, c, d] => (c - a).cross(&(d - b)),
-                _ => (places[1] - places[0]).cross(&(places[2] - places[0])),
-            };
-            for node in &nodes {
-                around.entry(*node).or_default().push(facets.len());
-            }
-            facets.push(Facet {
-                place: (side, FacetId::new(at)),
-                centre: places.iter().sum::<Vec3>() / places.len() as f64,
-                normal: normal.normalize(),
-            });
-            nodes_of.push(nodes);
+    for (at, facet) in facets.iter().enumerate() {
+        for node in &facet.nodes {
+            around.entry(*node).or_default().push(at);
         }
     }
-    let mut found =
-        surfaces.map(|surface| vec![Vec::new(); surface.map_or(0, |s| s.facets().len())]);
-    for (facet, nodes) in facets.iter().zip(nodes_of) {
-        let near: BTreeSet<usize> = nodes
-            .iter()
-            .flat_map(|node| &around[node])
-            .copied()
-            .collect();
-        let beyond = near
-            .into_iter()
-            .filter(|&other| is_edge(facet, &facets[other]));
+    let count = |surface: Option<&Surface>| surface.map_or(0, |surface| surface.facets().len());
+    let mut found = surfaces.map(|surface| vec![Vec::new(); count(surface)]);
+    for facet in &facets {
+        let near = facet.nodes.iter().flat_map(|node| &around[node]);
+        // Facets with a common edge share two nodes.
+        let near: BTreeSet<usize> = near.copied().collect();
+        let near = near.into_iter().map(|other| &facets[other]);
+        let beyond = near.filter(|other| is_edge(facet, other));
         let (side, at) = facet.place;
-        found[side][at.index()] = beyond.map(|other| facets[other].place).collect();
+        found[side][at.index()] = beyond.map(|other| other.place).collect();
     }
     found
 }
 
-fn is_edge(i: &Facet, j: &Facet) -> bool {
+/// The facets of a surface in the reference configuration; those without area have no edges.
+fn meshed(side: Side, surface: &Surface, x: &impl Fn(NodeId) -> Vec3) -> Vec<Meshed> {
+    let facets = surface.facets().iter().enumerate();
+    let found = facets.filter_map(|(at, corners)| {
+        let node = |corner| surface.nodes()[corner];
+        let ring = distinct_corners(corners).iter();
+        let nodes: Vec<NodeId> = ring.map(|&corner| node(corner)).collect();
+        Some(Meshed {
+            place: (side, FacetId::new(at)),
+            centre: nodes.iter().map(|node| x(*node)).sum::<Vec3>() / nodes.len() as f64,
+            normal: facet_normal(&Facet {
+                corners: corners.map(|corner| x(node(corner))),
+                shape: Shape::of(corners),
+            })?,
+            nodes,
+        })
+    });
+    found.collect()
+}
+
+fn is_edge(i: &Meshed, j: &Meshed) -> bool {
     let apart = j.centre - i.centre;
     i.normal.dot(&j.normal) < EDGE && apart.dot(&(i.normal - j.normal)) < -ROUND_OFF * apart.norm()
 }

@@ -154,7 +154,7 @@ fn at(tree: &DeTable<'_>, path: &str, faults: &mut FaultList<'_>) -> Option<Span
 /// Number at a path.
 ///
 /// # Errors
-/// What is there instead, and where.
+/// The first part of the path that leads nowhere or to something else, with its place.
 fn found<'t, 'i>(tree: &'t DeTable<'i>, path: &str) -> Result<&'t Value<'i>, Box<Missing>> {
     let mut parts = keys(tree);
     let mut span = 0..0;

@@ -1,9 +1,11 @@
 //! Points of skins that go through a body between two configurations.
 //!
 //! Sheets that are thinner than a facet have crossed something long before any of their points is
-//! deep inside it. Points and facets move in straight lines at a common pace, under which rigid motions pass
-//! through nothing. A point has gone through a body if it comes out of its skin where the normal
-//! points against the one where it went in.
+//! deep inside it. Points are the nodes of the skins and the centres of their facets. Points and
+//! facets move in straight lines at a common pace, under which a body that turns by less than half
+//! a turn passes through nothing. A point has gone through a body if it comes out of its skin
+//! where the normal points against the one where it went in. Bars that cross between their points,
+//! edge through edge, are not seen.
 
 use std::{collections::BTreeMap, sync::OnceLock};
 

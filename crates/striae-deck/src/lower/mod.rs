@@ -108,16 +108,10 @@ pub(super) fn deck(raw: &raw::Simulation, base: &Path, faults: &mut FaultList<'_
     })
 }
 
-/// Names of the numbers that a run is differentiated by, each once.
+/// Names of the numbers that a run is differentiated by.
 fn differentiated(raw: &raw::Simulation) -> Vec<String> {
     let names = raw.sensitivity.iter().flat_map(|at| at.value.names());
-    let mut found: Vec<String> = Vec::new();
-    for name in names {
-        if !found.contains(&name.value.0) {
-            found.push(name.value.0.clone());
-        }
-    }
-    found
+    names.map(|name| name.value.0.clone()).collect()
 }
 
 /// Notes on the parameters and on included files.

@@ -458,3 +458,67 @@ fn a_strip_that_is_folded_closes_and_slides_on_itself() {
         assert!(slipping > 40, "{slipping}");
     }
 }
+
+/// Edges that a block is pressed to are sharp, but the body is between their sides.
+#[test]
+fn the_sharp_edges_of_a_bonded_block_do_not_touch_through_it() {
+    let pressed = |touches: bool| {
+        let whole = block([0.0; 3], [1.0; 3], [3, 3, 3]).mesh().unwrap();
+        let mut model = model(vec![body("block", with_skin(whole), rubber(1.0, 0.45))]);
+        if touches {
+            model.touch_itself("block", &["skin"], coulomb(0.3));
+        }
+        let mut press = step();
+        press.increments = increments(0.05, 1e-3);
+        press.displacements = vec![
+            model.hold("block", "zmin", [Some(0.0); 3]),
+            model.hold("block", "zmax", [Some(0.0), Some(0.0), Some(-0.6)]),
+        ];
+        model.steps = vec![press];
+        completed(model)
+    };
+    let [touching, bare] = [true, false].map(pressed);
+    // The sides next to the sole stand at less than 45 degrees to it.
+    let sharp = |x: &&Vec3| x.x < 0.0 && x.z < -x.x;
+    let sharp = bare.last().positions.iter().filter(sharp).count();
+    assert!(sharp > 0);
+    let apart = apart(&touching, &bare);
+    assert!(apart.iter().all(|apart| *apart < 1e-12), "{apart:?}");
+}
+
+/// A sheet that is carried past another one by twice its thickness within an increment is found on
+/// its other side, where nothing touches; smaller increments press it down.
+#[test]
+fn a_sheet_that_would_go_through_in_one_increment_is_pressed_in_smaller_ones() {
+    let sheets = [
+        block([0.0; 3], [2.0, 1.0, 0.05], [8, 2, 1]),
+        block([0.6, 0.0, 0.08], [0.8, 1.0, 0.05], [3, 2, 1]),
+    ];
+    let meshes = sheets.map(|sheet| sheet.mesh().unwrap());
+    let mut one = model(vec![body(
+        "both",
+        with_skin(pieces(&meshes)),
+        rubber(1.0, 0.3),
+    )]);
+    one.touch_itself("both", &["skin"], coulomb(0.3));
+    let mut press = step();
+    press.increments = increments(1.0, 1e-3);
+    press.displacements = vec![
+        one.hold("both", "0.xmin", [Some(0.0); 3]),
+        one.hold("both", "0.xmax", [Some(0.0); 3]),
+        one.hold("both", "1.zmax", [Some(0.0), Some(0.0), Some(-0.18)]),
+    ];
+    one.steps = vec![press];
+    let run = completed(one);
+    assert!(run.progress.len() > 1, "{}", run.progress.len());
+    // Wherever the upper sheet is, the lower one is below it.
+    let upper = 9 * 3 * 2;
+    let (lower, upper) = run.last().positions.split_at(upper);
+    let highest = lower
+        .iter()
+        .filter(|x| (x.x - 1.0).abs() < 0.3)
+        .map(|x| x.z)
+        .fold(f64::NEG_INFINITY, f64::max);
+    let least = upper.iter().map(|x| x.z).fold(f64::INFINITY, f64::min);
+    assert!(highest < least + 0.01, "{highest} {least}");
+}
