@@ -463,7 +463,7 @@ fn a_strip_that_is_folded_closes_and_slides_on_itself() {
 #[test]
 fn the_sharp_edges_of_a_bonded_block_do_not_touch_through_it() {
     let pressed = |touches: bool| {
-        let whole = block([0.0; 3], [1.0; 3], [3, 3, 3]).mesh().unwrap();
+        let whole = block([0.0; 3], [1.0; 3], [2, 2, 2]).mesh().unwrap();
         let mut model = model(vec![body("block", with_skin(whole), rubber(1.0, 0.45))]);
         if touches {
             model.touch_itself("block", &["skin"], coulomb(0.3));
@@ -472,7 +472,7 @@ fn the_sharp_edges_of_a_bonded_block_do_not_touch_through_it() {
         press.increments = increments(0.05, 1e-3);
         press.displacements = vec![
             model.hold("block", "zmin", [Some(0.0); 3]),
-            model.hold("block", "zmax", [Some(0.0), Some(0.0), Some(-0.6)]),
+            model.hold("block", "zmax", [Some(0.0), Some(0.0), Some(-0.7)]),
         ];
         model.steps = vec![press];
         completed(model)
