@@ -431,7 +431,8 @@ fn derivatives_are_refused_where_a_run_goes_on() {
     let place = place();
     let run = striae(place.path(), &["run", "deck.toml", "--out", "out"]);
     assert!(run.status.success(), "{}", stderr(&run));
-    let further = format!("{DECK}[sensitivity]\nwrt = [\"mu\"]\n");
+    let step = "[[step]]\nname = \"on\"\nincrements = 1\n";
+    let further = format!("{DECK}{step}[sensitivity]\nwrt = [\"mu\"]\n");
     fs::write(place.path().join("further.toml"), further).unwrap();
     let words = ["resume", "out", "--with", "further.toml", "--out", "on"];
     let refused = striae(place.path(), &words);
