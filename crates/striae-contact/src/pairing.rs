@@ -5,12 +5,14 @@
 //! reach of their corners, and they overlap in the mean by no more than that and the `depth`
 //! that the bodies move towards each other.
 
+mod past_edges;
 mod self_contact;
 
 use rayon::prelude::*;
 use striae_mesh::{FacetId, Vec3};
 use striae_surface::{facet::Shape, node::SurfaceNode};
 
+use past_edges::face_past_edges;
 use self_contact::Neighbourhood;
 
 use crate::{
@@ -43,6 +45,8 @@ pub struct Scope<'a> {
     pub compliances: &'a [Vec<f64>; 2],
     /// Overlap beyond the reach up to which facets are paired.
     pub depth: f64,
+    /// Positions of the surface nodes by side at the start of the increment, if there is one.
+    pub start: Option<&'a [Vec<Vec3>; 2]>,
 }
 
 impl Scope<'_> {
@@ -285,7 +289,14 @@ fn of_facet(
             reach,
             segment,
         };
-        if is_near(&paired) && (!one_body || self_contact::is_outside(configuration, &paired)) {
+        let is_past_edges = || {
+            let start = scope.start.filter(|_| configuration.pair.has_faces);
+            start.is_some_and(|start| face_past_edges(configuration, &paired, start))
+        };
+        if is_near(&paired)
+            && (!one_body || self_contact::is_outside(configuration, &paired))
+            && !is_past_edges()
+        {
             found.push(paired);
         }
     }

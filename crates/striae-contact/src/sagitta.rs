@@ -80,6 +80,7 @@ pub(crate) fn share(stage: &Stage, deepest: f64) -> f64 {
     let scope = Scope {
         compliances: &compliances,
         depth: AHEAD * deepest,
+        start: None,
     };
     let normals = start.sides.each_ref().map(|side| {
         let normals = side

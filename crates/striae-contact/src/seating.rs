@@ -146,6 +146,7 @@ impl Seating {
         let scope = Scope {
             compliances: &compliances,
             depth: AHEAD * deepest,
+            start: None,
         };
         let none = |_: &[_]| SegmentDerivatives::None;
         let paired = paired_facets(start, scope, &none, |_| true);

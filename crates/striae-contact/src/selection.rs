@@ -63,9 +63,12 @@ impl Selection {
         let compliances = compliances(start);
         let depth = predicted.map_or(0.0, |predicted| approach(start, predicted));
         let depth = depth + start.worn;
+        let positions = |side: Side| start.sides[side].as_ref().map(|side| side.x.clone());
+        let positions = Side::BOTH.map(|side| positions(side).unwrap_or_default());
         let scope = Scope {
             compliances: &compliances,
             depth,
+            start: Some(&positions),
         };
         let mut gathered = Gathered::new(start, scope);
         if let Some(predicted) = predicted {
@@ -82,6 +85,7 @@ impl Selection {
             basis,
             compliances,
             depth,
+            start: positions,
             partners,
             offsets: [Vec::new(), Vec::new()],
             worn: [Vec::new(), Vec::new()],

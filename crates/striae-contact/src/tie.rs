@@ -84,6 +84,7 @@ pub fn join(configuration: &Configuration, within: Option<f64>) -> Joined {
     let scope = Scope {
         compliances: &compliances,
         depth: 0.0,
+        start: None,
     };
     let paired = paired_facets(configuration, scope, &|_| SegmentDerivatives::None, |_| {
         true

@@ -128,6 +128,12 @@ impl Surface {
         &self.boundary_edges
     }
 
+    /// Returns whether no other facet has the edge from a corner of a facet to its next one.
+    pub fn is_boundary_edge(&self, [start, end]: [SurfaceNode; 2]) -> bool {
+        let mut around = self.corners_of_node[start].iter();
+        !around.any(|corner| corner.previous == end)
+    }
+
     /// Returns whether the surface node lies on an edge of the surface.
     pub fn is_on_boundary(&self, node: SurfaceNode) -> bool {
         self.on_boundary[node]

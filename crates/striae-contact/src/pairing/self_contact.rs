@@ -233,6 +233,7 @@ mod tests {
         let scope = Scope {
             compliances: &compliances,
             depth: 0.0,
+            start: None,
         };
         let none = |_: &[Corners]| SegmentDerivatives::None;
         let paired = paired_facets(&at, scope, &none, |_| true);

@@ -1,5 +1,6 @@
 //! The traction field of a pair in an increment, as it was chosen.
 
+use striae_mesh::Vec3;
 use striae_surface::node::SurfaceNode;
 
 use super::{Kept, approach::approach, gathered::without_slivers};
@@ -33,6 +34,8 @@ pub struct Selection {
     pub compliances: [Vec<f64>; 2],
     /// Largest approach of the two sides in the increment.
     pub depth: f64,
+    /// Positions of the surface nodes at the start of the increment, by side.
+    pub start: [Vec<Vec3>; 2],
     /// Points opposite to the kept nodes at the start, for collocated rows.
     pub partners: Vec<Option<Partner>>,
     /// Overlap of the meshes at the nodes that is not removed yet, by side; empty if there is none.
@@ -197,6 +200,7 @@ impl Selection {
         Scope {
             compliances: &self.compliances,
             depth: self.depth,
+            start: Some(&self.start),
         }
     }
 
