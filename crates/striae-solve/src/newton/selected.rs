@@ -104,12 +104,17 @@ fn without_freedoms(
     }
 }
 
-/// The fields chosen again with the contacts of a trial state.
+/// The fields chosen again with the contacts of a trial state. Pairs that carry all that met keep
+/// theirs: what happens in one does not bear on the discretisation of another.
 pub(super) fn reselected(setting: &Setting, trial: &Trial, contacts: &[Evaluation]) -> Selected {
     let (mut selections, tractions): (Vec<_>, Vec<_>) = with_configurations(setting, trial)
         .enumerate()
         .map(|(pair, (start, latest))| {
             let had = &setting.selections[pair];
+            let tractions = trial.tractions[pair].clone();
+            if had.left_out(&start, &latest).is_empty() {
+                return (had.clone(), tractions);
+            }
             let kept = had.kept_nodes();
             let prescribed = &setting.context.fixed_on_pair[pair];
             let worn = deepest(&had.worn);
@@ -120,7 +125,7 @@ pub(super) fn reselected(setting: &Setting, trial: &Trial, contacts: &[Evaluatio
                 worn: had.worn.clone(),
                 ..Selection::new(&start, Some(&latest), &kept, prescribed)
             };
-            let mut tractions = trial.tractions[pair].clone();
+            let mut tractions = tractions;
             fit(&selection, &kept, &contacts[pair].carried, &mut tractions);
             (selection, tractions)
         })
