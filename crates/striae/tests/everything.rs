@@ -317,7 +317,11 @@ a = { body = "lower", facets = "zmax" }
 b = { body = "upper", facets = "zmin" }
 friction = { law = "coulomb", mu = 0.3 }
 "#;
-    let all = format!("[contact]\nall = true\nfriction = {{ law = \"coulomb\", mu = 0.3 }}\n");
+    let all = r#"
+[contact]
+all = true
+friction = { law = "coulomb", mu = 0.3 }
+"#;
     let all = format!("{all}{OF_FACES}");
     let [named, found] = [named, &all].map(|contact| {
         let text = OFF.replace("CONTACT", contact);
