@@ -111,10 +111,9 @@ fn examples() -> Result<(), Fault> {
     let mut names = Vec::new();
     for entry in fs::read_dir(&folder).map_err(unreadable)? {
         let path = entry.map_err(unreadable)?.path();
-        names.extend(
-            path.file_stem()
-                .map(|name| name.to_string_lossy().into_owned()),
-        );
+        // Folders hold what the examples share.
+        let stem = path.file_stem().filter(|_| path.is_file());
+        names.extend(stem.map(|name| name.to_string_lossy().into_owned()));
     }
     names.sort();
     cargo(&["build", "--release", "--workspace", "--examples"], &[])?;

@@ -2,6 +2,8 @@
 //!
 //! In closed form the pad sticks with `tau = k u` up to `tau = mu p`, with `p = k d`.
 
+mod plot;
+
 use striae::{
     contact::{
         component::{Contact, Evaluated, Faults, Imposed, Opponent, Pair, State, Surface},
@@ -12,6 +14,7 @@ use striae::{
     nalgebra::{DMatrix, DVector},
     prelude::Friction,
 };
+use striae_figure::{Axis, Content, Panel, Series};
 
 /// Stiffness of the springs per area, and the coefficient of friction.
 const K: f64 = 1e6;
@@ -104,6 +107,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let contact = Contact::new(points, &[sole])?;
     let (pressed, d) = (contact.untouched(), 1e-3);
     let (mut state, _) = solved(&contact, &pressed, &springs, Vec3::z() * d)?;
+    let mut drags = vec![[0.0, 0.0]];
     for u in [1e-4, 2e-4, 3e-4, 4e-4] {
         let (next, found) = solved(&contact, &state, &springs, Vec3::new(u, 0.0, d))?;
         let [force, _] = found.resultant(0, Side::A);
@@ -112,7 +116,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             force.z, force.x
         );
         assert!((force - Vec3::new((K * u).min(MU * K * d), 0.0, K * d)).norm() < 1e-9 * K * d);
+        drags.push([1e3 * u, force.x]);
         state = next;
     }
-    Ok(())
+    let panel = Panel::new(Axis::linear("way", "mm"), Axis::linear("drag", "N"))
+        .with(Series::new("pad of springs", Content::line(drags)));
+    plot::plot("own-elements", panel)
 }

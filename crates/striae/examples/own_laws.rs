@@ -4,11 +4,14 @@
 //! back to the other. The foam is the law of Blatz and Ko (1962, doi:10.1122/1.548937) for
 //! polyurethane with half its volume of air, which neither shares nor needs a bulk modulus.
 
+mod plot;
+
 use striae::law::bulk::{self, BulkLaw, Response, ResponseError, Tangent};
 use striae::law::friction::{self, FrictionLaw, Kernel, Lane, RequiredTextures, Textures};
 use striae::nalgebra::{Matrix3, SVector, Vector3};
 use striae::num_dual::{Dual2SVec64, hessian};
 use striae::prelude::*;
+use striae_figure::{Axis, Content, Panel, Series};
 
 /// `-tau = (I + s a t^T) z`: friction along `t` drags a share `s` of itself across.
 #[derive(Debug)]
@@ -76,7 +79,7 @@ impl BulkLaw for BlatzKo {
     }
 }
 
-fn main() -> Result<(), Error> {
+fn main() -> Result<(), Box<dyn std::error::Error>> {
     let friction = Friction::own(Herringbone { share: 0.5 }, 0.4)?;
     assert_eq!(
         friction::battery(&friction),
@@ -123,5 +126,21 @@ fn main() -> Result<(), Error> {
             y[last] / z[last],
         );
     }
-    Ok(())
+    let points = run
+        .history
+        .column("time")
+        .expect("there is such a column")
+        .into_iter()
+        .zip(x.iter().zip(&y).zip(&z));
+    let points: Vec<[[f64; 2]; 2]> = points
+        .map(|(time, ((x, y), z))| [[time, x / z], [time, y / z]])
+        .collect();
+    let friction = |at: usize| Content::line(points.iter().map(|point| point[at]).collect());
+    let panel = Panel::new(
+        Axis::linear("time", ""),
+        Axis::linear("friction / pressure", ""),
+    )
+    .with(Series::new("along", friction(0)))
+    .with(Series::new("aside", friction(1)));
+    plot::plot("own-laws", panel)
 }

@@ -1,7 +1,10 @@
 //! A parameter study: the same drag over floors whose grooves turn, run in parallel.
 
+mod plot;
+
 use rayon::prelude::*;
 use striae::prelude::*;
+use striae_figure::{Axis, Content, Panel, Series};
 
 /// Sideways over forward force on a block that is dragged over grooves at an angle to
 /// the direction of the drag.
@@ -36,13 +39,18 @@ fn deflection(degrees: f64) -> Result<f64, Error> {
     Ok(force.y / force.x)
 }
 
-fn main() -> Result<(), Error> {
-    let angles: Vec<f64> = (0..=6).map(|step| 15.0 * f64::from(step)).collect();
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let angles: Vec<f64> = (0..=18).map(|step| 5.0 * f64::from(step)).collect();
     let deflections: Result<Vec<f64>, Error> =
         angles.par_iter().map(|angle| deflection(*angle)).collect();
+    let points = angles.iter().zip(deflections?);
+    let points: Vec<[f64; 2]> = points.map(|(angle, found)| [*angle, found]).collect();
     println!("grooves [degrees]  sideways / forward");
-    for (angle, deflection) in angles.iter().zip(deflections?) {
+    for [angle, deflection] in &points {
         println!("{angle:17.0}  {deflection:18.4}");
     }
-    Ok(())
+    let angle = Axis::linear("angle of the grooves", "degrees");
+    let panel = Panel::new(angle, Axis::linear("sideways / forward", ""))
+        .with(Series::new("force", Content::line(points)));
+    plot::plot("parameter-study", panel)
 }

@@ -1,6 +1,9 @@
 //! An observer that follows a run and stops it when the block begins to slide as a whole.
 
+mod plot;
+
 use striae::prelude::*;
+use striae_figure::{Axis, Content, Panel, Series};
 
 /// Stops when every node in contact slips.
 struct UntilSliding;
@@ -20,7 +23,7 @@ impl Observer for UntilSliding {
     }
 }
 
-fn main() -> Result<(), Error> {
+fn main() -> Result<(), Box<dyn std::error::Error>> {
     let rubber = Material::neo_hookean(LameConstants::from_youngs_modulus(1e6, 0.3)?);
     let block = Block {
         divisions: [4, 4, 4],
@@ -44,5 +47,18 @@ fn main() -> Result<(), Error> {
     let run = Simulation::new(model)?.run_with(&mut UntilSliding)?;
     println!("{}", run.ending);
     assert!(matches!(run.ending, Ending::Interrupted { .. }));
-    Ok(())
+
+    let column = |name: &str| run.history.column(name).expect("there is such a column");
+    let time = column("time");
+    let nodes = |status: &str| -> Vec<[f64; 2]> {
+        let counts = column(&format!("pair.sole.{status}"));
+        time.iter()
+            .zip(counts)
+            .map(|(time, count)| [*time, count])
+            .collect()
+    };
+    let panel = Panel::new(Axis::linear("time", ""), Axis::linear("nodes", ""))
+        .with(Series::new("stick", Content::line(nodes("stick"))))
+        .with(Series::new("slip", Content::line(nodes("slip"))));
+    plot::plot("stop-when-sliding", panel)
 }

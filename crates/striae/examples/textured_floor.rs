@@ -1,8 +1,11 @@
 //! A block pressed onto a grooved floor and dragged obliquely: friction turns it aside.
 
-use striae::prelude::*;
+mod plot;
 
-fn main() -> Result<(), Error> {
+use striae::prelude::*;
+use striae_figure::{Axis, Content, Panel, Series};
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
     let rubber = Material::neo_hookean(LameConstants::from_youngs_modulus(1e6, 0.3)?);
     let block = Block {
         divisions: [4, 4, 4],
@@ -31,5 +34,16 @@ fn main() -> Result<(), Error> {
     println!("{}", run.ending);
     let sole = run.results().pair("sole").expect("there is such a pair");
     println!("force on the sole: {:.1?}", sole.sides[0].force.as_slice());
-    Ok(())
+
+    let column = |name: &str| run.history.column(name).expect("there is such a column");
+    let time = column("time");
+    let force = |axis: &str| -> Vec<[f64; 2]> {
+        let forces = column(&format!("pair.sole.resultant_a.{axis}"));
+        let forces = time.iter().zip(forces);
+        forces.map(|(time, force)| [*time, 1e-3 * force]).collect()
+    };
+    let panel = Panel::new(Axis::linear("time", ""), Axis::linear("friction", "kN"))
+        .with(Series::new("against the drag", Content::line(force("x"))))
+        .with(Series::new("aside", Content::line(force("y"))));
+    plot::plot("textured-floor", panel)
 }
