@@ -16,6 +16,8 @@ struct Spiral {
     pitch: f64,
     gap: f64,
     outer: f64,
+    /// Room between the outermost layer and the inner end, but for the layers between them.
+    room: f64,
 }
 
 impl Spiral {
@@ -62,6 +64,7 @@ impl Spiral {
             pitch,
             gap,
             outer,
+            room: pitch * turns - 1.2 * thick * turns.floor(),
         }
     }
 }
@@ -95,13 +98,15 @@ pub fn rolled(random: &mut Random, _: Dialect) -> Scene {
         pitch,
         gap,
         outer,
+        room,
     } = spiral;
     let planes = vec![
         plane("left", [-outer, 0.0, 0.0], [1.0, 0.0, 0.0]),
         plane("right", [outer, 0.0, 0.0], [-1.0, 0.0, 0.0]),
     ];
     let mut scene = everything(random, units, Stance::Upright, vec![body], planes);
-    let way = random.between(1.0, 3.0) * gap + pitch;
+    // The inner end is held: planes that go further would go through it.
+    let way = (random.between(1.0, 3.0) * gap + pitch).min(room);
     let mut step = Step::new("crush")
         .moving("strip", "xmin", [0.0; 3])
         .holding("strip", "rest", [None, None, Some(0.0)])
