@@ -113,9 +113,7 @@ pub enum CutBack {
         count: usize,
     },
     /// Bodies have gone through each other.
-    #[error(
-        "pair `{pair}`: {node} of `{body}` passed through `{other}`, or {depth:.3e} into it, undetected by contact"
-    )]
+    #[error("pair `{pair}`: {}", passage_text([body, other], *node, *depth, *is_prescribed))]
     Passage {
         /// Name of the pair.
         pair: String,
@@ -129,6 +127,8 @@ pub enum CutBack {
         depth: f64,
         /// Motion of one side relative to the other.
         way: f64,
+        /// `true` if the node and the rigid surface are both prescribed.
+        is_prescribed: bool,
     },
     /// A body has gone into itself or another one, where no contact kept them apart.
     #[error("{}", overlap_text([body, other], *node, *depth, *is_joined))]
@@ -297,6 +297,22 @@ fn crossing_text([body, other]: [&str; 2], node: striae_mesh::NodeId, is_joined:
 
 /// Remedy where nothing keeps bodies apart.
 const UNJOINED: &str = ", and no pair joins the surfaces there; let everything touch (`all = true` of `[contact]`), add a pair, or keep them apart";
+
+fn passage_text(
+    [body, other]: [&str; 2],
+    node: striae_mesh::NodeId,
+    depth: f64,
+    is_prescribed: bool,
+) -> String {
+    match is_prescribed {
+        true => format!(
+            "{node} of `{body}` and `{other}` are both prescribed, and so that they go {depth:.3e} through each other; change one of their motions, or release the node"
+        ),
+        false => format!(
+            "{node} of `{body}` passed through `{other}`, or {depth:.3e} into it, undetected by contact"
+        ),
+    }
+}
 
 fn overlap_text(
     [body, other]: [&str; 2],

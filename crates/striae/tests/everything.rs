@@ -346,3 +346,40 @@ friction = { law = "coulomb", mu = 0.3 }
         assert!((named - found).abs() < 1e-10, "{named} {found}");
     }
 }
+
+#[test]
+fn motions_that_lead_through_each_other_are_named() {
+    let text = r#"
+title = "A lid that comes down onto a corner that is held"
+[[material]]
+name = "rubber"
+law = "neo-hookean"
+youngs_modulus = 1
+poissons_ratio = 0.3
+[[body]]
+name = "block"
+material = "rubber"
+mesh = { generator = "block", size = [1, 1, 1], divisions = [2, 2, 2] }
+node_sets = [{ name = "corner", from = [0.9, 0.9, 0.9], to = [1.1, 1.1, 1.1] }]
+[[rigid]]
+name = "lid"
+plane = { point = [0, 0, 1.01], normal = [0, 0, -1] }
+[contact]
+all = true
+[[step]]
+name = "press"
+increments = 2
+displacement = [
+    { body = "block", nodes = "zmin", x = 0, y = 0, z = 0 },
+    { body = "block", nodes = "corner", x = 0, y = 0, z = 0 },
+]
+rigid = [{ surface = "lid", displacement = [0, 0, -0.5] }]
+"#;
+    let deck = deck::parse(text, "deck", Path::new("")).unwrap_or_else(|f| panic!("{f}"));
+    let run = Simulation::of(deck).unwrap().run().unwrap();
+    let told = run.ending.to_string();
+    assert!(
+        told.contains("node 26 of `block` and `lid` are both prescribed, and so that they go"),
+        "{told}"
+    );
+}

@@ -27,6 +27,7 @@ use crate::{
     initial::{meant_depth, other_name},
     interference::{Positions, between, beyond},
     model::PairId,
+    node::GlobalNode,
     outcome::{CutBack, Start},
     skin::{BodyOverlap, crossing, overlaps},
 };
@@ -104,7 +105,20 @@ fn missed(
         other: other_name(model, id, worst.side).to_owned(),
         depth: worst.depth,
         way: approach(&start, &end),
+        is_prescribed: is_prescribed(setting, pair, worst),
     })
+}
+
+/// Returns whether a node and the rigid surface that it went through are both prescribed.
+fn is_prescribed(setting: &Setting, pair: usize, found: &Interference) -> bool {
+    let context = setting.context;
+    let node = context.problem.surface_node(pair, found.side, found.node);
+    let is_known = |node: GlobalNode| (0..3).all(|axis| context.known[node.component(axis)]);
+    let is_rigid_known = |rigid: usize| setting.imposed.rigid[rigid].iter().all(Option::is_some);
+    node.is_some_and(is_known)
+        && context.problem.pairs[pair]
+            .rigid
+            .is_some_and(is_rigid_known)
 }
 
 /// Overlaps of bodies that no pair detects and that arose on the way to a trial state; collective.
