@@ -27,18 +27,21 @@ mod contact_face;
 mod cooks_membrane;
 mod crawler;
 mod crushed_ring;
+mod curve;
 mod edge_contact;
 mod edge_release;
 mod failure;
 mod fault_slider;
 mod finger_gripper;
 mod finger_pad;
+mod folded_strip;
 mod hertz_mindlin;
 mod hertz_mindlin_cylinders;
 mod hertz_mindlin_two_body;
 mod measure;
 mod million_unknowns;
 mod o_ring;
+mod overlap;
 mod pad_on_incline;
 mod patch_frictionless;
 mod patch_slip;
@@ -122,6 +125,12 @@ pub const CASES: &[Case] = &[
         "crushed-ring",
         "A ring crushed between planes and between jaws until its inner walls touch",
         crushed_ring::run,
+        quick: "one of two meshes each"
+    ),
+    case!(
+        "folded-strip",
+        "A strip folded between plates, beside the elastica, and pinched until its legs touch",
+        folded_strip::run,
         quick: "one of two meshes each"
     ),
     case!(

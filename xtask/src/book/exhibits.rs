@@ -15,7 +15,7 @@ pub struct Exhibit {
 }
 
 /// All cases.
-pub const EXHIBITS: [Exhibit; 35] = [
+pub const EXHIBITS: [Exhibit; 36] = [
     Exhibit {
         case: "two-blocks",
         run: Some("deck"),
@@ -57,6 +57,20 @@ pub const EXHIBITS: [Exhibit; 35] = [
         ],
         figure: Some("force-over-way"),
         caption: "A ring of rubber pinched until its inner walls touch, and its force between jaws and between planes.",
+    },
+    Exhibit {
+        case: "folded-strip",
+        run: Some("jaws-2"),
+        options: &[
+            "--field",
+            "cauchy_stress",
+            "--component",
+            "von Mises",
+            "--view",
+            "0,1,0",
+        ],
+        figure: Some("force-over-way"),
+        caption: "A strip bent double and pinched until its legs lie flat on each other, and its forces between plates, beside the elastica, and between jaws.",
     },
     Exhibit {
         case: "crawler",
