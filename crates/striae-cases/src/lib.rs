@@ -22,6 +22,7 @@ mod bar_impact;
 mod battery;
 mod billet_upset;
 mod bonded_pad;
+mod boot;
 mod comparison;
 mod contact_face;
 mod cooks_membrane;
@@ -132,6 +133,12 @@ pub const CASES: &[Case] = &[
         "A strip folded between plates, beside the elastica, and pinched until its legs touch",
         folded_strip::run,
         quick: "one of two meshes each"
+    ),
+    case!(
+        "boot",
+        "A bellows whose convolutions meet as it is compressed and pushed sideways",
+        boot::run,
+        quick: "one of two meshes of the slice"
     ),
     case!(
         "crawler",

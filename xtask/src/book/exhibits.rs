@@ -15,7 +15,7 @@ pub struct Exhibit {
 }
 
 /// All cases.
-pub const EXHIBITS: [Exhibit; 36] = [
+pub const EXHIBITS: [Exhibit; 37] = [
     Exhibit {
         case: "two-blocks",
         run: Some("deck"),
@@ -71,6 +71,20 @@ pub const EXHIBITS: [Exhibit; 36] = [
         ],
         figure: Some("force-over-way"),
         caption: "A strip bent double and pinched until its legs lie flat on each other, and its forces between plates, beside the elastica, and between jaws.",
+    },
+    Exhibit {
+        case: "boot",
+        run: Some("half"),
+        options: &[
+            "--field",
+            "cauchy_stress",
+            "--component",
+            "von Mises",
+            "--view",
+            "0.1,1,-0.2",
+        ],
+        figure: Some("force-over-way"),
+        caption: "Half of a bellows, compressed until its convolutions touch and pushed sideways, and its forces.",
     },
     Exhibit {
         case: "crawler",
