@@ -42,6 +42,7 @@ mod hertz_mindlin_two_body;
 mod measure;
 mod million_unknowns;
 mod o_ring;
+mod o_ring_groove;
 mod overlap;
 mod pad_on_incline;
 mod patch_frictionless;
@@ -267,6 +268,12 @@ pub const CASES: &[Case] = &[
         "An O-ring squeezed between plates and dragged across grooves",
         o_ring::run,
         quick: "one of three directions of the grooves on coarser meshes"
+    ),
+    case!(
+        "o-ring-groove",
+        "The section of an O-ring in a groove, squeezed and pressed by a fluid",
+        o_ring_groove::run,
+        quick: "one of two meshes"
     ),
     case!(
         "tyre-belt",

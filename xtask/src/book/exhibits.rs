@@ -15,7 +15,7 @@ pub struct Exhibit {
 }
 
 /// All cases.
-pub const EXHIBITS: [Exhibit; 37] = [
+pub const EXHIBITS: [Exhibit; 38] = [
     Exhibit {
         case: "two-blocks",
         run: Some("deck"),
@@ -253,6 +253,20 @@ pub const EXHIBITS: [Exhibit; 37] = [
         options: &["--field", "cauchy_stress", "--hide", "lid"],
         figure: Some("squeeze-and-drag"),
         caption: "An O-ring, squeezed between two plates and dragged across grooves; the upper plate is not shown.",
+    },
+    Exhibit {
+        case: "o-ring-groove",
+        run: Some("everything-8"),
+        options: &[
+            "--field",
+            "cauchy_stress",
+            "--component",
+            "von Mises",
+            "--view",
+            "0,1,0",
+        ],
+        figure: Some("squeeze-and-seal"),
+        caption: "The section of an O-ring, squeezed into a groove and pressed against its wall by a fluid from the left, and the pressure on the lid, which grows with that of the fluid.",
     },
     Exhibit {
         case: "tyre-belt",
