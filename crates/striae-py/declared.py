@@ -1,11 +1,14 @@
-"""Writes the classes of declared friction laws, ``python/striae/_laws.py``, and the methods of
-declared dependences, ``_dependences.py``: ``python crates/striae-py/declared.py``, with the
-package installed."""
+"""Writes the classes of declared laws, ``python/striae/_laws.py`` of friction and ``_materials.py``
+of bulk laws, and the methods of declared dependences, ``_dependences.py``:
+``python crates/striae-py/declared.py``, with the package installed."""
 
 from __future__ import annotations
 
+import keyword
 import re
 from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from textwrap import fill
 
@@ -16,6 +19,8 @@ HERE = Path(__file__).parent / "python" / "striae"
 #: Classes written by hand that laws derive from.
 BASES = {"tabulated": "SampledFriction"}
 
+Law = tuple[str, str, bool, list[native.Parameter]]
+
 IMPORTS = """
 from __future__ import annotations
 
@@ -23,15 +28,19 @@ from collections.abc import Sequence
 from typing import {typing}
 
 from . import _check as check
-from ._check import Floats, Values
+from ._check import {check}
 """
 
 LAWS = '''"""Friction laws as the library declares them, written by ``declared.py``."""
-''' + IMPORTS.format(typing="Literal, Optional, Union") + """from ._friction import {friction}
+''' + IMPORTS.format(typing="Literal, Optional, Union", check="Floats, Values") + """from ._friction import {bases}
+"""
+
+MATERIALS = '''"""Bulk laws as the library declares them, written by ``declared.py``."""
+''' + IMPORTS.format(typing="Literal, Optional", check="Values") + """from ._material import {bases}
 """
 
 DEPENDENCES = '''"""Dependences of friction as the library declares them, written by ``declared.py``."""
-''' + IMPORTS.format(typing="TYPE_CHECKING, Optional, Union") + '''from ._made import Made
+''' + IMPORTS.format(typing="TYPE_CHECKING, Optional, Union", check="Floats, Values") + '''from ._made import Made
 
 if TYPE_CHECKING:
     from ._friction import Friction
@@ -45,6 +54,37 @@ class Dependences(Made):
 '''
 
 
+@dataclass
+class Argument:
+    """A parameter as an argument."""
+
+    parameter: native.Parameter
+    #: Membership of a set that laws share, the members of which go by keyword.
+    is_shared: bool = False
+    #: Membership of one of several sets, of which exactly one is given.
+    is_chosen: bool = False
+    #: Other parameters of which it takes the place.
+    instead: str = ""
+
+    @property
+    def name(self) -> str:
+        """Name in decks."""
+        return self.parameter.name
+
+    @property
+    def is_required(self) -> bool:
+        """Returns whether it is always given."""
+        return self.parameter.is_required and not self.is_chosen
+
+    @property
+    def may_be_none(self) -> bool:
+        """Returns whether it is ``None`` where it is not given."""
+        told = self.parameter
+        return not self.is_required and (
+            self.is_chosen or (told.value is None and told.form not in ("pairs", "tables"))
+        )
+
+
 def class_name(law: str) -> str:
     """Name of the class of a law."""
     return "".join(word.capitalize() for word in law.split("-"))
@@ -56,33 +96,79 @@ def method_name(key: str, form: str, count: int) -> str:
     return name if count == 1 else f"{name}_{key}"
 
 
-def type_of(form: str, words: list[tuple[str, str]]) -> str:
+def arguments(parameters: list[native.Parameter], outer: Argument | None = None) -> Iterator[Argument]:
+    """Parameters and those of sets, without sets whose names Python reserves."""
+    for one in parameters:
+        is_shared = outer is not None and outer.is_shared
+        is_chosen = outer is not None and outer.is_chosen
+        if one.form != "one_of":
+            yield Argument(one, is_shared, is_chosen)
+            continue
+        sets = [of for _, of in one.sets if not any(keyword.iskeyword(each.name) for each in of)]
+        several = len(sets) > 1
+        for own in sets:
+            inner = Argument(one, is_shared or len(one.sets) == 1, is_chosen or several)
+            found = list(arguments(own, inner))
+            if several:
+                first = next(each for each in found if each.parameter.is_required)
+                first.instead = " or ".join(needed(of) for of in sets if of is not own)
+            yield from found
+
+
+def needed(parameters: list[native.Parameter]) -> str:
+    """Parameters that a set requires."""
+    return " and ".join(f"`{one.name}`" for one in parameters if one.is_required)
+
+
+def row(parameter: native.Parameter) -> list[native.Parameter]:
+    """Parameters of a table."""
+    return parameter.sets[0][1]
+
+
+def type_of(parameter: native.Parameter) -> str:
     """Type of an argument."""
+    form = parameter.form
     if form == "word":
-        return "Literal[" + ", ".join(f'"{word}"' for word, _ in words) + "]"
-    return "float" if form == "number" else "Union[Sequence[float], Floats]"
+        return "Literal[" + ", ".join(f'"{word}"' for word, _ in parameter.words) + "]"
+    if form in ("number", "numbers"):
+        return "float" if form == "number" else "Union[Sequence[float], Floats]"
+    count = 2 if form == "pairs" else len(row(parameter))
+    told = "tuple[" + ", ".join(["float"] * count) + "]"
+    return told if form == "table" else f"Sequence[{told}]"
 
 
-def argument(parameter: native._Told) -> str:
-    """A parameter in a signature."""
-    name, form, words, _, _, (is_optional, value, _) = parameter
-    told = type_of(form, words)
-    if not is_optional:
-        return f"{name}: {told}"
-    if value is None:
-        return f"{name}: Optional[{told}] = None"
-    return f"{name}: {told} = " + (f'"{value}"' if form == "word" else repr(value))
+def stated(of: Argument) -> str:
+    """An argument in a signature."""
+    told = type_of(of.parameter)
+    if of.is_required:
+        return f"{of.name}: {told}"
+    if of.may_be_none:
+        return f"{of.name}: Optional[{told}] = None"
+    value = of.parameter.value
+    default = "()" if value is None else f'"{value}"' if of.parameter.form == "word" else repr(value)
+    return f"{of.name}: {told} = {default}"
 
 
-def checked(parameter: native._Told) -> str:
-    """A parameter in the dictionary of values."""
-    name, form, words, _, _, (is_optional, value, _) = parameter
+def checked(of: Argument) -> str:
+    """An argument in the dictionary of values."""
+    name, form = of.name, of.parameter.form
     if form == "word":
-        known = ", ".join(f'"{word}"' for word, _ in words)
-        return f'"{name}": check.word({name}, ({known}), "{name}")'
-    if is_optional and value is None:
+        known = ", ".join(f'"{word}"' for word, _ in of.parameter.words)
+        call = f'check.word({name}, ({known}), "{name}")'
+    elif form == "number" and of.may_be_none:
         return f'"{name}": check.optional({name}, "{name}")'
-    return f'"{name}": check.{form}({name}, "{name}")'
+    elif form in ("number", "numbers"):
+        call = f'check.{form}({name}, "{name}")'
+    elif form == "table":
+        call = f'check.row({name}, "{name}", {len(row(of.parameter))})'
+    else:
+        count = 2 if form == "pairs" else len(row(of.parameter))
+        call = f'check.rows_of({name}, "{name}", {count})'
+        if not of.is_required and not of.may_be_none:
+            call += " or None"
+    if of.may_be_none:
+        call = f"None if {name} is None else {call}"
+    return f'"{name}": {call}'
 
 
 def ticked(text: str) -> str:
@@ -90,63 +176,102 @@ def ticked(text: str) -> str:
     return re.sub(r"`([^`]+)`", r"``\1``", text)
 
 
-def explained(parameter: native._Told) -> str:
-    """A parameter in a docstring."""
-    name, _, words, unit, doc, (is_optional, value, default) = parameter
+def lowered(doc: str) -> str:
+    """A description as part of a sentence."""
     doc = doc.rstrip(".")
-    if doc[1:2].islower():
-        doc = doc[0].lower() + doc[1:]
-    text = f"{name}: {doc}"
-    if words:
+    is_name = re.match(r"\w+'s ", doc) is not None
+    return doc[0].lower() + doc[1:] if doc[1:2].islower() and not is_name else doc
+
+
+def bounded(parameter: native.Parameter) -> str:
+    """A description with its bounds and its unit."""
+    bounds = " and ".join(f"{told} {limit:g}" for told, limit in parameter.bounds)
+    told = lowered(parameter.doc) + (f"; {bounds}" if bounds else "")
+    return told + (f" ({parameter.unit})" if parameter.unit else "")
+
+
+def explained(of: Argument) -> str:
+    """An argument in a docstring."""
+    parameter = of.parameter
+    text = f"{of.name}: {bounded(parameter)}"
+    if parameter.words:
+        words = parameter.words
         text += ": " + "; ".join(f"`{word}`: {what.rstrip('.')}" for word, what in words)
-    else:
-        text += f" ({unit})"
-    if is_optional and value is None:
-        text += f"; `{default}` by default" if default else "; none by default"
+    if parameter.form in ("table", "tables"):
+        each = ", ".join(f"`{one.name}`, {bounded(one)}" for one in row(parameter))
+        text += f"; {'each ' if parameter.form == 'tables' else ''}of {each}"
+    if of.instead:
+        text += f"; it or {of.instead} is needed"
+    elif not of.is_required and (of.is_chosen or parameter.value is None):
+        default = parameter.default or parameter.value
+        text += "; none by default" if default is None or default == "" else f"; `{default}` by default"
     text = ticked(text) + "."
+    doc = parameter.sets[0][0] if parameter.form == "tables" else ""
+    # The first sentence tells what an element is, which the names of its members tell too.
+    _, _, more = doc.partition(". ")
+    text += " " + ticked(more) if more else ""
     return fill(text, 99, initial_indent=" " * 8, subsequent_indent=" " * 12)
 
 
-def function(head: str, result: str, doc: str, parameters: list[native._Told], call: str) -> str:
+def function(head: str, result: str, doc: str, parameters: list[native.Parameter], call: str) -> str:
     """A method with a docstring, which calls another with the values."""
-    arguments = ["self", *map(argument, parameters)]
-    lines = [f"    def {head}({', '.join(arguments)}) -> {result}:"]
+    found = list(arguments(parameters))
+    plain = [stated(one) for one in found if not one.is_shared]
+    shared = [stated(one) for one in found if one.is_shared]
+    all_of = ["self", *plain, *(["*", *shared] if shared else [])]
+    lines = [f"    def {head}({', '.join(all_of)}) -> {result}:"]
     if len(lines[0]) > 99:
-        inner = "".join(f"        {one},\n" for one in arguments)
+        inner = "".join(f"        {one},\n" for one in all_of)
         lines = [f"    def {head}(\n{inner}    ) -> {result}:"]
     lines.append(fill(f'"""{ticked(doc)}', 99, initial_indent=" " * 8, subsequent_indent=" " * 8))
-    if parameters:
-        lines += ["", *map(explained, parameters), '        """']
+    if found:
+        lines += ["", *map(explained, found), '        """']
     else:
         lines[-1] += '"""'
     lines.append("        values: Values = {")
-    lines += [f"            {checked(one)}," for one in parameters]
-    if not parameters:
+    lines += [f"            {checked(one)}," for one in found]
+    if not found:
         lines[-1] += "}"
     else:
         lines.append("        }")
     return "\n".join([*lines, f"        {call}"]) + "\n"
 
 
-def laws(declared: list[tuple[str, str, bool, list[native._Told]]]) -> str:
-    """The module of laws."""
-    bases = ", ".join(sorted({"Friction", *BASES.values()}))
-    parts = [LAWS.format(friction=bases)]
+def base_of(law: str, parameters: list[native.Parameter], common: str) -> str:
+    """Class that the class of a law derives from: of a set that laws share, if there is one."""
+    sets = [one.name for one in parameters if one.form == "one_of" and len(one.sets) == 1]
+    return BASES.get(law, class_name(sets[0]) if sets else common)
+
+
+def classes(head: str, declared: list[Law], common: str, made: str) -> str:
+    """A module of laws, without what follows the classes."""
+    bases = {law: base_of(law, parameters, common) for law, _, _, parameters in declared}
+    parts = [head.format(bases=", ".join(sorted({common, *bases.values()})))]
     names = sorted(class_name(law) for law, *_ in declared)
     parts.append("__all__ = [\n" + "".join(f'    "{name}",\n' for name in names) + "]\n")
     for law, summary, _, parameters in declared:
-        base = BASES.get(law, "Friction")
         doc = fill(f'"""{ticked(summary)}"""', 99, initial_indent=" " * 4, subsequent_indent=" " * 4)
-        made = function("__init__", "None", "Makes the law.", parameters, f'self._make("{law}", values)')
-        parts.append(f"\nclass {class_name(law)}({base}):\n{doc}\n\n{made}")
-    fitted = [(class_name(law), law) for law, _, is_fitted, _ in declared if is_fitted]
-    entries = "".join(f'    {name}: "{law}",\n' for name, law in fitted)
-    head = "\n#: Laws that can be fitted, with their names in decks.\n"
-    parts.append(head + "FITTED: dict[type[Friction], str] = {\n" + entries + "}\n")
+        call = f'self._make("{law}", values)'
+        init = function("__init__", "None", made, parameters, call)
+        parts.append(f"\nclass {class_name(law)}({bases[law]}):\n{doc}\n\n{init}")
     return "\n".join(parts)
 
 
-def dependences(declared: list[tuple[str, list[tuple[str, str, bool, list[native._Told]]]]]) -> str:
+def laws(declared: list[Law]) -> str:
+    """The module of friction laws."""
+    fitted = [(class_name(law), law) for law, _, is_fitted, _ in declared if is_fitted]
+    entries = "".join(f'    {name}: "{law}",\n' for name, law in fitted)
+    head = "\n#: Laws that can be fitted, with their names in decks.\n"
+    text = classes(LAWS, declared, "Friction", "Makes the law.")
+    return text + "\n" + head + "FITTED: dict[type[Friction], str] = {\n" + entries + "}\n"
+
+
+def materials(declared: list[Law]) -> str:
+    """The module of bulk laws."""
+    return classes(MATERIALS, declared, "Material", "Makes the material.")
+
+
+def dependences(declared: list[tuple[str, list[Law]]]) -> str:
     """The module of dependences."""
     counts = Counter(form for _, forms in declared for form, *_ in forms)
     parts = [DEPENDENCES]
@@ -162,9 +287,10 @@ def dependences(declared: list[tuple[str, list[tuple[str, str, bool, list[native
 def written() -> dict[Path, str]:
     """Files with their texts."""
     kinds = dict(native.declared_laws())
-    friction = kinds.pop("law")
+    bulk, friction = kinds.pop("material"), kinds.pop("law")
     return {
         HERE / "_laws.py": laws(friction),
+        HERE / "_materials.py": materials(bulk),
         HERE / "_dependences.py": dependences(list(kinds.items())),
     }
 

@@ -35,6 +35,8 @@ pub(crate) enum Form {
 pub(crate) enum Open {
     /// Friction.
     Friction,
+    /// Bulk laws.
+    Bulk,
 }
 
 /// One composition of a table.

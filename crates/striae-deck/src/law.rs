@@ -3,9 +3,13 @@
 //! Reader, schema and reference follow from the declarations of `striae-law`; this crate
 //! knows no law by name.
 
+mod compositions;
+mod reading;
+
 use striae_law::{
     Laws,
-    declared::{self, Declared, Kind, Parameter, Value, Values},
+    bulk::Material,
+    declared::{Declared, Kind},
     friction::{
         BY_PRESSURE, BY_RATE, BY_SLIP, BY_STATE, DECAY, Friction, PressureDependence,
         RateDependence, SlipDependence, StateDependence,
@@ -15,10 +19,12 @@ use striae_law::{
 use super::{
     declare::read_as_table,
     faults::FaultList,
-    form::{Alternative, Form, Key, Need, Open},
+    form::{Alternative, Form, Open},
     read::{self, Part, Place, TableReader},
-    value::{number, numbers, word},
+    value::word,
 };
+use compositions::{compositions, of_each, tag};
+pub(crate) use reading::Stated;
 
 /// A kind of laws that tables name.
 pub(crate) trait Named: Kind {
@@ -40,6 +46,16 @@ impl Named for Friction {
 
     fn declared(laws: &Laws) -> &[&'static Declared<Self>] {
         laws.friction()
+    }
+}
+
+impl Named for Material {
+    const TAG: &'static str = "law";
+    const DOC: &'static str = "Bulk law.";
+    const OPEN: Option<Open> = Some(Open::Bulk);
+
+    fn declared(laws: &Laws) -> &[&'static Declared<Self>] {
+        laws.bulk()
     }
 }
 
@@ -83,33 +99,6 @@ impl Named for StateDependence {
     }
 }
 
-/// A law by its name, with the values of its parameters but after faults.
-#[derive(Clone, Debug)]
-pub(crate) struct Stated<L: Kind> {
-    law: &'static Declared<L>,
-    values: Option<Values>,
-}
-
-impl<L: Kind> Stated<L> {
-    /// Reads the parameters of a law.
-    fn parameters(law: &'static Declared<L>, reader: &mut TableReader<'_, '_, '_>) -> Self {
-        // All are read, so that all faults are noted.
-        let values: Vec<_> = law
-            .parameters
-            .iter()
-            .map(|one| one_of(one, reader))
-            .collect();
-        let values: Option<Vec<_>> = values.into_iter().collect();
-        let values = values.map(|values| values.into_iter().flatten().collect());
-        Self { law, values }
-    }
-
-    /// Returns the law or its refusal; nothing where values could not be read.
-    pub(crate) fn made(&self) -> Option<Result<L, L::Refusal>> {
-        Some(self.law.made(self.values.as_ref()?))
-    }
-}
-
 impl<L: Named> Part for Stated<L> {
     fn part(reader: &mut TableReader<'_, '_, '_>) -> Option<Self> {
         let laws = L::declared(reader.faults.laws());
@@ -119,10 +108,10 @@ impl<L: Named> Part for Stated<L> {
             word(value, place, faults, &names)
         };
         match reader.required_as(L::TAG, &expected, read) {
-            Some(at) => Some(Self::parameters(laws[at.value], reader)),
+            Some(at) => Some(Self::read(laws[at.value], reader)),
             None => {
                 laws.iter()
-                    .for_each(|law| reader.tolerate(&[keys(law.parameters)]));
+                    .for_each(|law| reader.tolerate(&compositions(law.parameters)));
                 None
             }
         }
@@ -145,15 +134,11 @@ pub(crate) struct Decay(pub(crate) Stated<RateDependence>);
 
 impl Part for Decay {
     fn part(reader: &mut TableReader<'_, '_, '_>) -> Option<Self> {
-        Some(Self(Stated::parameters(&DECAY, reader)))
+        Some(Self(Stated::read(&DECAY, reader)))
     }
 
     fn alternatives() -> Vec<Alternative> {
-        let doc = DECAY.summary.to_owned();
-        vec![Alternative {
-            doc,
-            ..keys(DECAY.parameters)
-        }]
+        compositions::of_law(&DECAY)
     }
 }
 
@@ -173,81 +158,7 @@ impl Open {
     pub(crate) fn alternatives(self, laws: &Laws) -> Vec<Alternative> {
         match self {
             Self::Friction => of_each::<Friction>(laws),
+            Self::Bulk => of_each::<Material>(laws),
         }
-    }
-}
-
-/// Returns a composition for each law, with the key of its name first.
-fn of_each<L: Named>(laws: &Laws) -> Vec<Alternative> {
-    let composed = |law: &&'static Declared<L>| {
-        let mut composed = keys(law.parameters);
-        composed.doc = law.summary.to_owned();
-        composed
-            .keys
-            .insert(0, tag::<L>(Form::Words(vec![(law.name, "")])));
-        composed
-    };
-    L::declared(laws).iter().map(composed).collect()
-}
-
-fn tag<L: Named>(form: Form) -> Key {
-    Key {
-        name: L::TAG,
-        doc: L::DOC.to_owned(),
-        need: Need::Required,
-        form,
-    }
-}
-
-/// Returns the keys of parameters.
-fn keys(parameters: &[Parameter]) -> Alternative {
-    let key = |parameter: &Parameter| Key {
-        name: parameter.name,
-        doc: parameter.told(),
-        need: match parameter.is_required() {
-            true => Need::Required,
-            false => Need::Optional,
-        },
-        form: form(parameter.form),
-    };
-    Alternative {
-        doc: String::new(),
-        keys: parameters.iter().map(key).collect(),
-    }
-}
-
-fn form(of: declared::Form) -> Form {
-    match of {
-        declared::Form::Number(bounds) => Form::Number(bounds),
-        declared::Form::Numbers(bounds) => Form::List(Box::new(Form::Number(bounds)), None),
-        declared::Form::Word(words) => Form::Words(words.to_vec()),
-    }
-}
-
-/// Returns the value of a parameter, nothing within where it is absent and need not be given;
-/// nothing at all after a fault.
-fn one_of(
-    parameter: &Parameter,
-    reader: &mut TableReader<'_, '_, '_>,
-) -> Option<Option<(&'static str, Value)>> {
-    let read = |value: &read::Value<'_>, place: &Place, faults: &mut FaultList<'_>| {
-        Some(match parameter.form {
-            declared::Form::Number(bounds) => number(value, place, faults, bounds)?.into(),
-            declared::Form::Numbers(bounds) => numbers(value, place, faults, bounds)?.into(),
-            declared::Form::Word(words) => {
-                let names: Vec<&'static str> = words.iter().map(|(name, _)| *name).collect();
-                names[word(value, place, faults, &names)?].into()
-            }
-        })
-    };
-    let given = reader.has(parameter.name);
-    let found = match parameter.is_required() {
-        true => reader.required_as(parameter.name, &form(parameter.form).expected(), read),
-        false => reader.optional_as(parameter.name, read),
-    };
-    match found {
-        Some(at) => Some(Some((parameter.name, at.value))),
-        None if given || parameter.is_required() => None,
-        None => Some(None),
     }
 }

@@ -234,7 +234,8 @@ fn simulation(
     faults: &mut FaultList<'_>,
 ) -> Option<raw::Simulation> {
     computed(text, included, settings, faults, |tree, faults| {
-        let raw: raw::Simulation = read::read_keys(tree, 0..0, &read::Place::root(), faults)?;
+        let raw: raw::Simulation =
+            read::read_keys(tree, 0..0, &read::Place::root(), faults, read::Part::part)?;
         for name in raw.sensitivity.iter().flat_map(|at| at.value.names()) {
             settings::number(tree, &name.value.0, Some(&name.span), faults);
         }
@@ -264,7 +265,13 @@ fn computed<T>(
 
 /// The tables of a text.
 fn tables<T: read::Part>(text: &str, faults: &mut FaultList<'_>) -> Option<T> {
-    read::read_keys(&tree(text, faults)?, 0..0, &read::Place::root(), faults)
+    read::read_keys(
+        &tree(text, faults)?,
+        0..0,
+        &read::Place::root(),
+        faults,
+        read::Part::part,
+    )
 }
 
 fn tree<'t>(text: &'t str, faults: &mut FaultList<'_>) -> Option<DeTable<'t>> {

@@ -103,19 +103,29 @@ pub(crate) fn read_table<T: Part>(
     place: &Place,
     faults: &mut FaultList<'_>,
 ) -> Option<T> {
+    read_table_as(value, place, faults, T::part)
+}
+
+/// Reads a whole table by a function that takes its keys.
+pub(crate) fn read_table_as<T>(
+    value: &Value<'_>,
+    place: &Place,
+    faults: &mut FaultList<'_>,
+    read: impl FnOnce(&mut TableReader<'_, '_, '_>) -> Option<T>,
+) -> Option<T> {
     let DeValue::Table(table) = value.get_ref() else {
-        unexpected::<T>(value, place, faults, &Form::Table(Vec::new()));
-        return None;
+        return unexpected(value, place, faults, &Form::Table(Vec::new()));
     };
-    read_keys(table, value.span(), place, faults)
+    read_keys(table, value.span(), place, faults, read)
 }
 
 /// Reads the keys of a table that has already been found to be one.
-pub(crate) fn read_keys<T: Part>(
+pub(crate) fn read_keys<T>(
     table: &DeTable<'_>,
     span: Span,
     place: &Place,
     faults: &mut FaultList<'_>,
+    read: impl FnOnce(&mut TableReader<'_, '_, '_>) -> Option<T>,
 ) -> Option<T> {
     let name = place.table_name();
     let mut reader = TableReader {
@@ -126,9 +136,9 @@ pub(crate) fn read_keys<T: Part>(
         missing: Vec::new(),
         faults,
     };
-    let part = T::part(&mut reader);
+    let found = read(&mut reader);
     reader.finish();
-    part
+    found
 }
 
 /// Notes that a value has not the form it must have.
@@ -310,8 +320,8 @@ pub(crate) fn combined(outer: &[Alternative], inner: &[Alternative]) -> Vec<Alte
     for one in outer {
         for other in inner {
             let doc = match inner {
-                [_] => one.doc.clone(),
-                _ => format!("{} {}", one.doc, other.doc),
+                [_] if !one.doc.is_empty() => one.doc.clone(),
+                _ => format!("{} {}", one.doc, other.doc).trim().to_owned(),
             };
             let keys = one.keys.iter().chain(&other.keys).cloned().collect();
             all.push(Alternative { doc, keys });

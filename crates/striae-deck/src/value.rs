@@ -5,7 +5,7 @@ use super::{
     fault::FaultKind,
     faults::FaultList,
     form::Form,
-    read::{At, Place, Read, Value, described, unexpected},
+    read::{At, Place, Read, TableReader, Value, described, read_table_as, unexpected},
 };
 use std::slice;
 use striae_law::declared::Bound;
@@ -86,8 +86,6 @@ number! {
     Angle [Bound::Above(0.0), Bound::AtMost(180.0)]
     /// A ratio by which something grows.
     Growth [Bound::AtLeast(1.0)]
-    /// A ratio of lateral contraction of a compressible material.
-    PoissonsRatio [Bound::Above(-1.0), Bound::Below(0.5)]
 }
 
 /// A number, or the text of a function of position and time.
@@ -280,6 +278,31 @@ pub(crate) fn numbers(
     let all = array
         .iter()
         .map(|value| number(value, &place, faults, bounds));
+    all.collect::<Vec<_>>().into_iter().collect()
+}
+
+/// The tables of a list, by a function that takes the keys of one.
+pub(crate) fn tables<T>(
+    value: &Value<'_>,
+    place: &Place,
+    faults: &mut FaultList<'_>,
+    form: &Form,
+    read: impl Fn(&mut TableReader<'_, '_, '_>) -> Option<T>,
+) -> Option<Vec<T>> {
+    let listed = match value.get_ref() {
+        DeValue::Array(array) => &array[..],
+        // The table is read all the same, as if it were the only one of the list.
+        DeValue::Table(_) => {
+            unexpected::<()>(value, place, faults, form);
+            slice::from_ref(value)
+        }
+        _ => return unexpected(value, place, faults, form),
+    };
+    let place = place.element();
+    // All are read, so that all faults are noted.
+    let all = listed
+        .iter()
+        .map(|value| read_table_as(value, &place, faults, &read));
     all.collect::<Vec<_>>().into_iter().collect()
 }
 

@@ -80,7 +80,7 @@ fn rubber(isochoric: Isochoric, bulk: f64) -> Hyperelastic {
 
 #[test]
 fn cards_become_laws() {
-    let plain = |isochoric, bulk| Material::Hyperelastic(rubber(isochoric, bulk));
+    let plain = |isochoric, bulk| Material::hyperelastic(rubber(isochoric, bulk));
     assert_eq!(
         left("*HYPERELASTIC, NEO HOOKE\n0.5, 0.02\n"),
         plain(Isochoric::NeoHookean { shear: 1.0 }, 100.0)
@@ -104,7 +104,7 @@ fn cards_become_laws() {
     let hardening = Hardening::table(&[[0.0, 2.0], [0.5, 3.0]]).unwrap();
     assert_eq!(
         left("*ELASTIC\n70., 0.25\n*PLASTIC\n2., 0.\n3., 0.5\n"),
-        Material::Plastic(Plastic::new(constants, hardening))
+        Material::plastic(Plastic::new(constants, hardening))
     );
 }
 
@@ -123,7 +123,7 @@ fn what_relaxes_is_stated_for_slow_or_sudden_deformations() {
     ] {
         let expected = |isochoric, bulk| {
             let slow = rubber(isochoric, bulk);
-            Material::Viscoelastic(Viscoelastic::new(slow, &branches).unwrap())
+            Material::viscoelastic(Viscoelastic::new(slow, &branches).unwrap())
         };
         let shear = slow;
         assert_eq!(

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use striae_deck::{Deck, Faults, parse};
-use striae_law::bulk::{Direction, FibreStiffness, Fibres, LinesAbout, Material};
+use striae_law::bulk::{Direction, FibreStiffness, Fibres, Law, LinesAbout};
 use striae_mesh::Vec3;
 
 fn read(law: &str, fibres: &str) -> Result<Deck, Faults> {
@@ -67,8 +67,8 @@ fn families_have_their_constants_and_directions() {
     ];
     assert_eq!(body.material.fibres(), expected);
     assert!(matches!(
-        body.material.without_fibres(),
-        Material::Hyperelastic(_)
+        body.material.without_fibres().law(),
+        Law::Hyperelastic(_)
     ));
 }
 

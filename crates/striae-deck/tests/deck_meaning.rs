@@ -14,7 +14,9 @@ fn constants() {
             "youngs_modulus = 1e6\npoissons_ratio = 0.3",
             "lambda = -1\nshear_modulus = 1",
         )],
-        &["5:10: `lambda` = -1 and `shear_modulus` = 1 give a bulk modulus that is not positive"],
+        &[
+            "5:10: the material is not admissible: `lambda` = -1 and `shear_modulus` = 1 give a bulk modulus that is not positive",
+        ],
     );
     for (what, law, expected) in [
         (
@@ -25,17 +27,12 @@ fn constants() {
         (
             "rubber without terms",
             "law = \"ogden\"\nterms = []\nbulk_modulus = 10",
-            "2:1: the material is not admissible: the law has no term, but it needs at least one",
+            "5:9: the material is not admissible: the law has no term, but it needs at least one",
         ),
         (
             "an exponent of zero",
             "law = \"ogden\"\nterms = [{ mu = 1, alpha = 2 }, { mu = 1, alpha = 0 }]\nbulk_modulus = 10",
-            "2:1: the material is not admissible: `alpha` of term 1 is 0, but it must be positive or negative",
-        ),
-        (
-            "chains that are locked at rest",
-            "law = \"arruda-boyce\"\nmu = 1\nlocking_stretch = 1\nbulk_modulus = 10",
-            "2:1: the material is not admissible: `locking_stretch` is 1, but it must be above 1",
+            "5:9: the material is not admissible: `alpha` of term 1 is 0, but it must be positive or negative",
         ),
         (
             "branches that are none",
@@ -45,12 +42,12 @@ fn constants() {
         (
             "saturation below the yield stress",
             "law = \"elastic-plastic\"\nyoungs_modulus = 1\npoissons_ratio = 0.3\nyield_stress = 2\nsaturation = { stress = 1, rate = 1 }",
-            "2:1: the material is not admissible: the saturation stress is 1, but it must be at least `yield_stress`, 2",
+            "8:14: the material is not admissible: the saturation stress is 1, but it must be at least `yield_stress`, 2",
         ),
         (
             "a table of hardening that falls",
             "law = \"elastic-plastic\"\nyoungs_modulus = 1\npoissons_ratio = 0.3\nyield_table = [[0, 2], [0.1, 1]]",
-            "2:1: the material is not admissible: pair 1 of the table: its plastic strain must be larger than the previous one, its stress positive and not smaller than the previous one",
+            "7:15: the material is not admissible: pair 1 of the table: its plastic strain must be larger than the previous one, its stress positive and not smaller than the previous one",
         ),
     ] {
         let base = "law = \"neo-hookean\"\nyoungs_modulus = 1e6\npoissons_ratio = 0.3";

@@ -69,7 +69,7 @@ fn decks_have_all_bulk_laws() {
     };
     let constants = LameConstants::from_youngs_modulus(1e6, 0.3).unwrap();
     let rubber = |isochoric| {
-        Material::Hyperelastic(Hyperelastic::new(isochoric, 20.0, Volumetric::Quadratic).unwrap())
+        Material::hyperelastic(Hyperelastic::new(isochoric, 20.0, Volumetric::Quadratic).unwrap())
     };
     let ogden = Isochoric::Ogden(Box::new([
         OgdenTerm {
@@ -104,7 +104,7 @@ fn decks_have_all_bulk_laws() {
     let slow = Hyperelastic::new(slow, 20.0, Volumetric::Quadratic).unwrap();
     let branches = [(0.5, 0.1), (2.0, 10.0)].map(|(ratio, time)| Branch { ratio, time });
     let metal = |hardening: Result<Hardening, _>| {
-        Material::Plastic(Plastic::new(constants, hardening.unwrap()))
+        Material::plastic(Plastic::new(constants, hardening.unwrap()))
     };
     let pairs = [[0.0, 100.0], [0.1, 150.0]];
     for (law, expected) in [
@@ -118,7 +118,7 @@ fn decks_have_all_bulk_laws() {
         ),
         (
             "law = \"isochoric-neo-hookean\"\nshear_modulus = 0.5\npoissons_ratio = 0.49\nvolumetric = \"logarithmic\"",
-            Material::Hyperelastic(by_ratio.unwrap()),
+            Material::hyperelastic(by_ratio.unwrap()),
         ),
         (
             "law = \"mooney-rivlin\"\nc10 = 0.2\nc01 = 0.05\nbulk_modulus = 20",
@@ -142,7 +142,7 @@ fn decks_have_all_bulk_laws() {
         ),
         (
             "law = \"isochoric-neo-hookean\"\nshear_modulus = 0.5\nbulk_modulus = 20\nrelaxation = [{ ratio = 0.5, time = 0.1 }, { ratio = 2, time = 10 }]",
-            Material::Viscoelastic(Viscoelastic::new(slow, &branches).unwrap()),
+            Material::viscoelastic(Viscoelastic::new(slow, &branches).unwrap()),
         ),
         (
             "law = \"elastic-plastic\"\nyoungs_modulus = 1e6\npoissons_ratio = 0.3\nyield_stress = 100",

@@ -1,10 +1,11 @@
-//! A law of a program's own, named in a deck.
+//! Laws of a program's own, named in a deck.
 
 use std::path::Path;
 
 use striae_deck::{Reader, json_schema, reference, write};
 use striae_law::{
     Laws,
+    bulk::{DualNum, Inadmissible, Invariant, Isochoric, IsochoricLaw, Material, RUBBER, battery},
     declared::{Absent, Declared, Kind, POSITIVE, Parameter, Value},
     friction::Friction,
 };
@@ -22,10 +23,63 @@ static LUBRICATED: Declared<Friction> = Declared {
     fit: None,
 };
 
+/// Rubber whose energy grows with a power of the invariant:
+/// `G/(2 n) ((1 + I1 - 3)^n - 1)`.
+#[derive(Debug)]
+struct Power {
+    shear: f64,
+    exponent: f64,
+}
+
+impl IsochoricLaw for Power {
+    fn name(&self) -> &str {
+        "power"
+    }
+
+    fn shear(&self) -> f64 {
+        self.shear
+    }
+
+    fn energy(&self, i1: Invariant, _: Invariant) -> Invariant {
+        ((i1 - 2.0).powf(self.exponent) - 1.0) * (0.5 * self.shear / self.exponent)
+    }
+}
+
+static POWER: Declared<Material> = Declared {
+    name: "power",
+    summary: "Rubber that stiffens by a power of the invariant.",
+    parameters: &[
+        Parameter::number(
+            "shear_modulus",
+            POSITIVE,
+            "force per area",
+            "Shear modulus.",
+        ),
+        Parameter::number("exponent", POSITIVE, "no unit", "The power.").or(Absent::Number(2.0)),
+        RUBBER,
+    ],
+    build: |values| {
+        let [shear, exponent] = ["shear_modulus", "exponent"].map(|name| values.number(name));
+        if exponent > 9.0 {
+            return Err(Inadmissible::Own {
+                parameter: Some("exponent"),
+                reason: format!("`exponent` is {exponent}, but it must be at most 9"),
+            });
+        }
+        Material::rubber(Isochoric::own(Power { shear, exponent }), values)
+    },
+    fit: None,
+};
+
 fn deck(friction: &str) -> String {
+    let rubber = "law = \"neo-hookean\", youngs_modulus = 1, poissons_ratio = 0.3";
+    deck_of(rubber, friction)
+}
+
+fn deck_of(rubber: &str, friction: &str) -> String {
     format!(
         r#"title = "A lubricated block"
-material = [{{ name = "rubber", law = "neo-hookean", youngs_modulus = 1, poissons_ratio = 0.3 }}]
+material = [{{ name = "rubber", {rubber} }}]
 rigid = [{{ name = "road", plane = {{ point = [0, 0, 0], normal = [0, 0, 1] }} }}]
 [[body]]
 name = "block"
@@ -44,7 +98,56 @@ displacement = [{{ body = "block", nodes = "zmax", x = 0, y = 0, z = -0.1 }}]
 }
 
 fn laws() -> Laws {
-    Laws::default().with_friction(&LUBRICATED)
+    Laws::default().with_friction(&LUBRICATED).with_bulk(&POWER)
+}
+
+fn bulk(rubber: &str) -> Result<striae_deck::Deck, String> {
+    let laws = laws();
+    let text = deck_of(rubber, "law = \"frictionless\"");
+    let deck = Reader::new(&laws, &[]).parse(&text, "deck.toml", Path::new(""));
+    deck.map_err(|faults| faults.to_string())
+}
+
+#[test]
+fn a_bulk_law_is_named_and_written_with_what_all_rubber_has() {
+    let relaxing = "relaxation = [{ ratio = 0.5, time = 2.0 }]";
+    let keys = "law = \"power\", shear_modulus = 2, exponent = 1.5, poissons_ratio = 0.4";
+    let first = bulk(&format!("{keys}, {relaxing}")).unwrap();
+    let rubber = &first.model.bodies[0].material;
+    assert_eq!(rubber.lame_constants().shear, 2.0);
+    assert_eq!(rubber.name(), "viscoelastic");
+    assert_eq!(battery(rubber), []);
+    let written = write(&first.model, &first.output).unwrap();
+    let lines = format!(
+        "law = \"power\"\nshear_modulus = 2.0\nexponent = 1.5\npoissons_ratio = 0.4\nvolumetric = \"quadratic\"\n{relaxing}\n"
+    );
+    assert!(written.contains(&lines), "{written}");
+    let laws = laws();
+    let again = Reader::new(&laws, &[]).parse(&written, "deck.toml", Path::new(""));
+    assert_eq!(&again.unwrap().model.bodies[0].material, rubber);
+}
+
+#[test]
+fn faults_of_a_bulk_law_are_where_its_keys_are() {
+    for (rubber, told) in [
+        (
+            "law = \"power\", shear_modulus = 2, bulk_modulus = 9, exponent = 10",
+            "deck.toml:2:95: the material is not admissible: `exponent` is 10, but it must be at most 9",
+        ),
+        (
+            "law = \"power\", shear_modulus = 2",
+            "[[material]] needs either `bulk_modulus` or `poissons_ratio`",
+        ),
+        (
+            "law = \"power\", bulk_modulus = 9, shear_modulus = -2",
+            "`shear_modulus` in [[material]] must be a number greater than 0, but is -2",
+        ),
+        ("law = \"powr\", bulk_modulus = 9", "did you mean `power`?"),
+    ] {
+        let faults = bulk(rubber).unwrap_err();
+        assert!(faults.contains(told), "{faults}");
+        assert!(faults.ends_with("1 fault"), "{faults}");
+    }
 }
 
 fn found(friction: &str) -> Result<Friction, String> {
@@ -110,4 +213,7 @@ fn schema_and_reference_list_it() {
     let row = "| `share` (optional) | a number greater than 0 | Part of it that is left. Default: 0.25. |";
     assert!(reference.contains(row));
     assert!(!striae_deck::reference(&Laws::default()).contains("lubricant"));
+    assert!(schema.contains("Rubber that stiffens by a power of the invariant."));
+    let row = "| `exponent` (optional) | a number greater than 0 | The power. Default: 2. |";
+    assert!(reference.contains(row));
 }

@@ -296,6 +296,14 @@ fn ranges() {
         ],
     );
     misread(
+        "chains that are locked at rest",
+        &[
+            ("\"neo-hookean\"", "\"arruda-boyce\""),
+            ("youngs_modulus = 1e6", "mu = 1\nlocking_stretch = 1"),
+        ],
+        &["6:19: `locking_stretch` in [[material]] must be a number greater than 1, but is 1"],
+    );
+    misread(
         "Poisson's ratio of minus one",
         &[("poissons_ratio = 0.3", "poissons_ratio = -1")],
         &[

@@ -85,9 +85,9 @@ pub(super) fn reference(
 /// Fraction by which the volume ratios at the points are averaged.
 pub(super) fn share(material: &Material) -> f64 {
     let LameConstants { lambda, shear } = material.lame_constants();
-    let factor = match material {
-        Material::Plastic(_) => 0.01,
-        _ => 1.0,
+    let factor = match material.yields() {
+        true => 0.01,
+        false => 1.0,
     };
     1.0 - (factor * shear / (lambda + 2.0 * shear / 3.0))
         .sqrt()

@@ -26,7 +26,7 @@ impl Formulation {
     /// Formulation suited to a material: mean dilatation above a Poisson's ratio of 0.45 and for
     /// materials that yield, as plastic flow preserves the volume.
     pub fn suited_to(material: &Material) -> Self {
-        if matches!(material, Material::Plastic(_)) {
+        if material.yields() {
             return Self::MeanDilatation;
         }
         let constants = material.lame_constants();

@@ -6,9 +6,13 @@
 //!
 //! Values are in the words of a deck: angles are in degrees.
 
+mod set;
 mod terms;
+#[cfg(test)]
+mod tests;
 mod value;
 
+pub use set::{Choice, Set};
 pub use terms::{degrees, read_as};
 pub use value::{Value, Values};
 
@@ -26,6 +30,11 @@ pub trait Kind: Sized + 'static {
 
     /// Returns what the law was made of, if it was made by a declared one.
     fn statement(&self) -> Option<&Statement>;
+
+    /// Returns the parameter that a refusal is about, if it is about one.
+    fn refused(_: &Self::Refusal) -> Option<&'static str> {
+        None
+    }
 }
 
 /// A law that can be called by its name.
@@ -43,10 +52,10 @@ pub struct Declared<L: Kind> {
     pub fit: Option<L::Fit>,
 }
 
-/// A parameter of a law.
+/// A parameter of a law, or several in one.
 #[derive(Clone, Copy, Debug)]
 pub struct Parameter {
-    /// Name in decks.
+    /// Name in decks; of [`Form::OneOf`] a name for those who read the code.
     pub name: &'static str,
     /// Form of its value.
     pub form: Form,
@@ -67,6 +76,14 @@ pub enum Form {
     Numbers(&'static [Bound]),
     /// One of a few words, each with its description.
     Word(&'static [(&'static str, &'static str)]),
+    /// A list of pairs of finite numbers.
+    Pairs,
+    /// Values of its own parameters.
+    Table(&'static Set),
+    /// A list of them.
+    Tables(&'static Set),
+    /// No value of its own: parameters beside the others, exactly one of several sets of them.
+    OneOf(&'static [Set]),
 }
 
 /// A bound of a number.
@@ -114,6 +131,8 @@ pub const POSITIVE: &[Bound] = &[Bound::Above(0.0)];
 pub const NOT_NEGATIVE: &[Bound] = &[Bound::AtLeast(0.0)];
 /// Bounds of any finite number.
 pub const ANY: &[Bound] = &[];
+/// Bounds of Poisson's ratio of a compressible solid.
+pub const POISSONS_RATIO: &[Bound] = &[Bound::Above(-1.0), Bound::Below(0.5)];
 
 impl Bound {
     /// Returns whether a number respects the bound.
@@ -170,6 +189,38 @@ impl Parameter {
         }
     }
 
+    /// Returns a list of pairs of numbers that must be given.
+    pub const fn pairs(name: &'static str, doc: &'static str) -> Self {
+        Self {
+            form: Form::Pairs,
+            ..Self::number(name, ANY, "", doc)
+        }
+    }
+
+    /// Returns a table of parameters that must be given.
+    pub const fn table(name: &'static str, set: &'static Set, doc: &'static str) -> Self {
+        Self {
+            form: Form::Table(set),
+            ..Self::number(name, ANY, "", doc)
+        }
+    }
+
+    /// Returns a list of tables of parameters that must be given.
+    pub const fn tables(name: &'static str, set: &'static Set, doc: &'static str) -> Self {
+        Self {
+            form: Form::Tables(set),
+            ..Self::number(name, ANY, "", doc)
+        }
+    }
+
+    /// Returns the parameters of exactly one of several sets, or those of the only one.
+    pub const fn one_of(name: &'static str, sets: &'static [Set]) -> Self {
+        Self {
+            form: Form::OneOf(sets),
+            ..Self::number(name, ANY, "", "")
+        }
+    }
+
     /// Returns the parameter with another value where none is given.
     pub const fn or(self, absent: Absent) -> Self {
         Self { absent, ..self }
@@ -206,26 +257,26 @@ impl Parameter {
 }
 
 impl<L: Kind> Declared<L> {
+    /// Returns the statement of a law by values of all its parameters.
+    pub(crate) fn stated(&self, values: Values) -> Statement {
+        Statement {
+            law: self.name,
+            values,
+        }
+    }
+
     /// Makes the law of given values, in any order; others have their defaults.
     ///
     /// # Errors
     /// When the law refuses them.
     ///
     /// # Panics
-    /// When a value that is required is not given, or has not the form it must have.
+    /// When a value that is required is not given, or has not the form it must have; see
+    /// [`Set::chosen`] for those of several sets.
     pub fn made(&self, given: &Values) -> Result<L, L::Refusal> {
-        let mut values = Values::default();
-        for parameter in self.parameters {
-            let value = given.get(parameter.name).cloned();
-            if let Some(value) = value.or_else(|| parameter.default(&values)) {
-                values = values.with(parameter.name, value);
-            }
-        }
+        let values = set::completed(self.parameters, given, Values::default());
         let law = (self.build)(&values)?;
-        Ok(law.with_statement(Statement {
-            law: self.name,
-            values,
-        }))
+        Ok(law.with_statement(self.stated(values)))
     }
 }
 

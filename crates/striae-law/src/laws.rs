@@ -1,5 +1,6 @@
 //! Laws that can be called by their names.
 
+use crate::bulk::{self, Material};
 use crate::declared::Declared;
 use crate::friction::{self, Friction};
 
@@ -22,12 +23,14 @@ use crate::friction::{self, Friction};
 #[derive(Clone, Debug)]
 pub struct Laws {
     friction: Vec<&'static Declared<Friction>>,
+    bulk: Vec<&'static Declared<Material>>,
 }
 
 impl Default for Laws {
     fn default() -> Self {
         Self {
             friction: friction::LAWS.to_vec(),
+            bulk: bulk::LAWS.to_vec(),
         }
     }
 }
@@ -38,6 +41,18 @@ impl Laws {
         self.friction.retain(|known| known.name != law.name);
         self.friction.push(law);
         self
+    }
+
+    /// Returns the laws with one more, in place of one of the same name.
+    pub fn with_bulk(mut self, law: &'static Declared<Material>) -> Self {
+        self.bulk.retain(|known| known.name != law.name);
+        self.bulk.push(law);
+        self
+    }
+
+    /// Returns the bulk laws.
+    pub fn bulk(&self) -> &[&'static Declared<Material>] {
+        &self.bulk
     }
 
     /// Returns the laws of friction.

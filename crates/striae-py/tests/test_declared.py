@@ -24,6 +24,34 @@ def test_arguments_have_the_names_of_decks() -> None:
         st.Orthotropic(along=0.1, across=0.4)  # type: ignore[call-arg]
 
 
+def test_materials_say_what_they_were_made_of() -> None:
+    rubber = st.MooneyRivlin(1e5, 2e4, poissons_ratio=0.49, relaxation=[(0.5, 1)])
+    told = "c10=100000.0, c01=20000.0, poissons_ratio=0.49, relaxation=[(0.5, 1.0)]"
+    assert repr(rubber) == f"MooneyRivlin({told})"
+    assert rubber.poissons_ratio == 0.49
+    assert isinstance(rubber, st.Rubber)
+    assert repr(st.NeoHookean(1, 0.3)) == "NeoHookean(youngs_modulus=1.0, poissons_ratio=0.3)"
+    body = st.Body("block", st.block(), rubber)
+    model = st.Model([body])
+    model.step("hold", body["all"].hold())
+    text = model.to_deck()
+    assert 'law = "mooney-rivlin"\nc10 = 100000.0\nc01 = 20000.0\npoissons_ratio = 0.49\n' in text
+    assert "relaxation = [{ ratio = 0.5, time = 1.0 }]" in text
+
+
+def test_sets_exclude_each_other() -> None:
+    with pytest.raises(st.ModelError, match="`bulk_modulus` and `poissons_ratio` exclude each other"):
+        st.Gent(1e5, 30.0, bulk_modulus=1e7, poissons_ratio=0.4)
+    with pytest.raises(TypeError):
+        st.Gent(1e5, 30.0, 1e7)  # type: ignore[misc]
+    with pytest.raises(TypeError, match="the key `lambda` of decks is youngs_modulus"):
+        st.NeoHookean(**{"lambda": 1.0})  # type: ignore[call-arg]
+    with pytest.raises(TypeError, match="terms: a list is needed, not float"):
+        st.Ogden(2.0, bulk_modulus=1e7)  # type: ignore[arg-type]
+    with pytest.raises(st.ModelError, match="Ogden: the law has no term"):
+        st.Ogden([], bulk_modulus=1e7)
+
+
 def test_words_of_a_fit_are_those_of_the_law() -> None:
     angles, forces = [0.0, 90.0, 180.0, 270.0], [0.3, 0.2, 0.3, 0.2]
     with pytest.raises(st.ModelError, match="slip_rule: the law has no such word"):

@@ -109,7 +109,7 @@ def test_materials_can_be_read_in_notebooks() -> None:
 WRONG: list[tuple[Callable[[], Any], str]] = [
     (
         lambda: st.Yeoh(1e5, 0, 0, bulk_modulus=1e7, relaxation=[(0.5, 0.0)]),
-        "relaxation: `time` of branch 0 is 0, but it must be positive and finite",
+        "Yeoh: `time` of branch 0 is 0, but it must be positive and finite",
     ),
     (
         lambda: st.Yeoh(1e5, 0, 0, bulk_modulus=1e7, relaxation=[0.5]),  # type: ignore[list-item]
@@ -134,8 +134,8 @@ WRONG: list[tuple[Callable[[], Any], str]] = [
     ),
     (
         lambda: st.ElasticPlastic(2e11, 0.3, yield_table=[(0, 1.0)], hardening_modulus=1.0),
-        "ElasticPlastic: `hardening_modulus` and `saturation` go with `yield_stress`, not with a"
-        " table",
+        "ElasticPlastic: `hardening_modulus` and `yield_table` exclude each other; either"
+        " `yield_stress` or `yield_table` is needed",
     ),
 ]
 

@@ -39,7 +39,6 @@ use striae_contact::{
     selection::deepest,
     side::Side,
 };
-use striae_law::bulk::Material;
 use striae_mesh::{ElementId, NodeId, Vec3};
 use striae_surface::node::SurfaceNode;
 
@@ -548,7 +547,7 @@ fn rotation(problem: &Problem, state: &State) -> f64 {
         let turned = elements.iter().zip(body.mesh.elements()).enumerate();
         let linear = turned.filter(|(element, _)| {
             let material = problem.material(at, ElementId::new(*element));
-            matches!(material, Material::LinearElastic { .. })
+            !material.is_objective()
         });
         let angles = linear.map(|(_, (element, corners))| {
             let nodes = problem.nodes(at, corners).into_iter();
@@ -563,7 +562,7 @@ fn rotation(problem: &Problem, state: &State) -> f64 {
 fn is_linear(problem: &Problem, body: usize) -> bool {
     let used = problem.compositions[body].used_sections().iter();
     let mut materials = used.map(|section| problem.model.bodies[body].material_of(*section));
-    materials.any(|material| matches!(material, Material::LinearElastic { .. }))
+    materials.any(|material| !material.is_objective())
 }
 
 fn linear_text(problem: &Problem) -> String {

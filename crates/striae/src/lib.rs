@@ -126,7 +126,8 @@
 //! # Laws of one's own
 //!
 //! A friction law implements [`FrictionLaw`](law::friction::FrictionLaw), a bulk law
-//! [`BulkLaw`](law::bulk::BulkLaw), in any crate. Batteries hold it against mechanics
+//! [`BulkLaw`](law::bulk::BulkLaw), or [`IsochoricLaw`](law::bulk::IsochoricLaw) if it is
+//! rubber, in any crate. Batteries hold it against mechanics
 //! before it meets a mesh; `examples/own_laws.rs` has one of each.
 //!
 //! ```

@@ -234,6 +234,8 @@ fn snippet(sought: &Sought, found: &Fit) -> String {
                 let numbers: Vec<String> = numbers.iter().copied().map(rounded).collect();
                 format!("[{}]", numbers.join(", "))
             }
+            // No fit finds values of other forms.
+            _ => continue,
         };
         text += &format!(", {} = {value}", parameter.name);
     }

@@ -93,7 +93,7 @@ pub(crate) fn material(card: &Card) -> Result<Material, String> {
     let rubber = Hyperelastic::new(isochoric, bulk, Volumetric::Quadratic);
     let rubber = rubber.map_err(|error| error.to_string())?;
     if card.relaxation.is_empty() {
-        return Ok(Material::Hyperelastic(rubber));
+        return Ok(Material::hyperelastic(rubber));
     }
     let branches = card.relaxation.iter().map(|[g, time]| Branch {
         ratio: g / (1.0 - relaxing),
@@ -101,7 +101,7 @@ pub(crate) fn material(card: &Card) -> Result<Material, String> {
     });
     let branches: Vec<Branch> = branches.collect();
     let material = Viscoelastic::new(rubber, &branches).map_err(|error| error.to_string())?;
-    Ok(Material::Viscoelastic(material))
+    Ok(Material::viscoelastic(material))
 }
 
 /// An elastic solid, or a metal.
@@ -117,7 +117,7 @@ fn solid(card: &Card, youngs_modulus: f64, poissons_ratio: f64) -> Result<Materi
         .map(|[stress, strain]| [*strain, *stress]);
     let hardening = Hardening::table(&pairs.collect::<Vec<_>>());
     let hardening = hardening.map_err(|error| error.to_string())?;
-    Ok(Material::Plastic(Plastic::new(constants, hardening)))
+    Ok(Material::plastic(Plastic::new(constants, hardening)))
 }
 
 /// The isochoric part, times `slow`, and the bulk modulus.

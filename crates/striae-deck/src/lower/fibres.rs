@@ -23,7 +23,8 @@ pub(super) fn with_fibres(
         .collect();
     let families: Option<Vec<Fibres>> = families.into_iter().collect();
     let made = Fibrous::new(ground, &families?);
-    admissible(made, &raw.span, faults).map(Material::Fibrous)
+    let made = made.map_err(|error| (error, raw.span.clone()));
+    admissible(made, faults).map(Material::fibrous)
 }
 
 fn fibres(raw: &raw::Fibres, faults: &mut FaultList<'_>) -> Option<Fibres> {

@@ -15,13 +15,16 @@ pub(crate) fn friction(
     span: &Span,
     faults: &mut FaultList<'_>,
 ) -> Option<Friction> {
-    let law = raw.law.as_ref().and_then(Stated::made);
+    let law = raw.law.as_ref().and_then(|law| law.made(span));
     let law = law.and_then(|law| {
         let law = law.and_then(|law| match &raw.shear_cap {
-            Some(cap) => law.with_shear_cap(cap.value.0),
+            Some(cap) => {
+                let capped = law.with_shear_cap(cap.value.0);
+                capped.map_err(|error| (error, cap.span.clone()))
+            }
             None => Ok(law),
         });
-        accepted(law, span, faults)
+        accepted(law, faults)
     });
     let decay = match &raw.decay {
         Some(decay) => made(&decay.value.0, &decay.span, faults).map(Some),
@@ -78,18 +81,14 @@ fn dependence<L: Named>(
 }
 
 fn made<L: Named>(raw: &Stated<L>, span: &Span, faults: &mut FaultList<'_>) -> Option<L> {
-    accepted(raw.made()?, span, faults)
+    accepted(raw.made(span)?, faults)
 }
 
 /// The accepted value, or `None` after its fault has been noted.
-fn accepted<T>(
-    found: Result<T, impl ToString>,
-    span: &Span,
-    faults: &mut FaultList<'_>,
-) -> Option<T> {
-    let noted = |error| {
+fn accepted<T>(found: Result<T, (impl ToString, Span)>, faults: &mut FaultList<'_>) -> Option<T> {
+    let noted = |(error, span)| {
         let cause = ToString::to_string(&error);
-        faults.push(span, FaultKind::Friction { cause });
+        faults.push(&span, FaultKind::Friction { cause });
     };
     found.map_err(noted).ok()
 }

@@ -1,4 +1,7 @@
 //! `fibres` of a material.
+//!
+//! A family is no law of its own, which would be declared in `striae-law`: it stands in any elastic
+//! solid, and its direction is a field in the space of the body.
 
 use super::{
     super::declare::{either, table},

@@ -1,10 +1,7 @@
 //! Friction laws and materials.
 
 use striae_law::{
-    bulk::{
-        Branch, Direction, FibreStiffness, Fibres, Hardening, HardeningForm, Hyperelastic,
-        Isochoric, LinesAbout, Material, OgdenTerm, Volumetric,
-    },
+    bulk::{Direction, FibreStiffness, Fibres, LinesAbout, Material},
     declared::{Kind, Statement, Value, Values, degrees},
     friction::{DECAY, Friction},
 };
@@ -45,53 +42,42 @@ pub(super) fn friction_keys(friction: &Friction) -> Option<String> {
 
 /// The values of parameters, each after a comma.
 fn stated_values(values: &Values) -> String {
-    let value = |value: &Value| match value {
-        Value::Number(value) => number(*value),
-        Value::Numbers(values) => list(values.iter().copied().map(number)),
-        Value::Word(word) => text(word),
-    };
-    let values = values.iter();
-    values
-        .map(|(key, of)| format!(", {key} = {}", value(of)))
-        .collect()
+    let each = stated(values);
+    each.map(|one| format!(", {one}")).collect()
 }
 
-/// Lines of a material but for its name; `None` for a law that decks have no table for, as of
-/// one's own.
-pub(crate) fn material(of: &Material) -> Option<String> {
-    match of {
-        Material::NeoHookean {
-            lambda,
-            shear,
-            volumetric: form,
-        } => {
-            let constants = [("lambda", *lambda), ("shear_modulus", *shear)];
-            Some(stated("neo-hookean", &constants) + volumetric(*form))
-        }
-        Material::LinearElastic { lambda, shear } => {
-            let constants = [("lambda", *lambda), ("shear_modulus", *shear)];
-            Some(stated("linear-elastic", &constants))
-        }
-        Material::Hyperelastic(rubber) => Some(hyperelastic(rubber)),
-        Material::Viscoelastic(law) => {
-            let branch = |branch: &Branch| {
-                let (ratio, time) = (number(branch.ratio), number(branch.time));
-                format!("{{ ratio = {ratio}, time = {time} }}")
-            };
-            let branches = list(law.branches().iter().map(branch));
-            Some(hyperelastic(law.slow()) + &format!("relaxation = {branches}\n"))
-        }
-        Material::Plastic(law) => {
-            let of = law.lame_constants();
-            let constants = [("lambda", of.lambda), ("shear_modulus", of.shear)];
-            Some(stated("elastic-plastic", &constants) + &hardening(law.hardening()))
-        }
-        Material::Fibrous(law) => {
-            let families = list(law.families().iter().map(fibres));
-            Some(material(law.ground())? + &format!("fibres = {families}\n"))
-        }
-        _ => None,
+/// Keys of parameters with their values.
+fn stated(values: &Values) -> impl Iterator<Item = String> {
+    let values = values.iter();
+    values.map(|(key, value)| format!("{key} = {}", stated_value(value)))
+}
+
+fn stated_value(value: &Value) -> String {
+    let numbers = |values: &[f64]| list(values.iter().copied().map(number));
+    let table = |values: &Values| {
+        let each: Vec<String> = stated(values).collect();
+        format!("{{ {} }}", each.join(", "))
+    };
+    match value {
+        Value::Number(value) => number(*value),
+        Value::Numbers(values) => numbers(values),
+        Value::Word(word) => text(word),
+        Value::Pairs(pairs) => list(pairs.iter().map(|pair| numbers(pair))),
+        Value::Table(values) => table(values),
+        Value::Tables(all) => list(all.iter().map(table)),
     }
+}
+
+/// Lines of a material but for its name; `None` for a law of one's own that is not declared.
+pub(crate) fn material(of: &Material) -> Option<String> {
+    let Statement { law, values } = of.without_fibres().statement()?;
+    let values: String = stated(values).map(|one| one + "\n").collect();
+    let mut lines = format!("law = \"{law}\"\n{values}");
+    if !of.fibres().is_empty() {
+        let families = list(of.fibres().iter().map(fibres));
+        lines += &format!("fibres = {families}\n");
+    }
+    Some(lines)
 }
 
 fn fibres(family: &Fibres) -> String {
@@ -118,76 +104,4 @@ fn fibres(family: &Fibres) -> String {
         }
     };
     format!("{{ {stiffness}, direction = {{ {direction} }} }}")
-}
-
-/// The name of a law and constants of it.
-fn stated(law: &str, constants: &[(&str, f64)]) -> String {
-    let constant = |(key, value): &(&str, f64)| format!("{key} = {}\n", number(*value));
-    let constants: String = constants.iter().map(constant).collect();
-    format!("law = \"{law}\"\n{constants}")
-}
-
-fn volumetric(form: Volumetric) -> &'static str {
-    match form {
-        Volumetric::Quadratic => "volumetric = \"quadratic\"\n",
-        Volumetric::Logarithmic => "volumetric = \"logarithmic\"\n",
-    }
-}
-
-fn hyperelastic(rubber: &Hyperelastic) -> String {
-    let isochoric = match rubber.isochoric() {
-        Isochoric::NeoHookean { shear } => {
-            stated("isochoric-neo-hookean", &[("shear_modulus", *shear)])
-        }
-        Isochoric::MooneyRivlin { c10, c01 } => {
-            stated("mooney-rivlin", &[("c10", *c10), ("c01", *c01)])
-        }
-        Isochoric::Yeoh { c10, c20, c30 } => {
-            stated("yeoh", &[("c10", *c10), ("c20", *c20), ("c30", *c30)])
-        }
-        Isochoric::Gent { shear, limit } => {
-            stated("gent", &[("shear_modulus", *shear), ("limit", *limit)])
-        }
-        Isochoric::ArrudaBoyce {
-            mu,
-            locking_stretch,
-        } => stated(
-            "arruda-boyce",
-            &[("mu", *mu), ("locking_stretch", *locking_stretch)],
-        ),
-        Isochoric::Ogden(terms) => {
-            let term = |term: &OgdenTerm| {
-                let (mu, alpha) = (number(term.mu), number(term.alpha));
-                format!("{{ mu = {mu}, alpha = {alpha} }}")
-            };
-            let terms = list(terms.iter().map(term));
-            stated("ogden", &[]) + &format!("terms = {terms}\n")
-        }
-    };
-    let bulk = format!("bulk_modulus = {}\n", number(rubber.bulk()));
-    isochoric + &bulk + volumetric(rubber.volumetric())
-}
-
-fn hardening(hardening: &Hardening) -> String {
-    match hardening.form() {
-        HardeningForm::Smooth {
-            yield_stress,
-            modulus,
-            saturation,
-            rate,
-        } => {
-            let [first, modulus] = [*yield_stress, *modulus].map(number);
-            let mut text = format!("yield_stress = {first}\nhardening_modulus = {modulus}\n");
-            if *rate > 0.0 {
-                let [stress, rate] = [*saturation, *rate].map(number);
-                text += &format!("saturation = {{ stress = {stress}, rate = {rate} }}\n");
-            }
-            text
-        }
-        HardeningForm::Table(pairs) => {
-            let pair =
-                |[strain, stress]: &[f64; 2]| format!("[{}, {}]", number(*strain), number(*stress));
-            format!("yield_table = {}\n", list(pairs.iter().map(pair)))
-        }
-    }
 }

@@ -1,7 +1,7 @@
 //! Parts, surfaces and materials.
 
 use super::{CUBE, FOAM, STEP, assert_listed, converted, made, model};
-use striae_law::bulk::Material;
+use striae_law::bulk::Law;
 use striae_mesh::Vec3;
 
 fn with_surfaces(surfaces: &str) -> String {
@@ -70,8 +70,8 @@ fn rubber_and_metals() {
     let (_, listed, deck) = converted(&text);
     assert_listed(&listed, &[]);
     assert!(matches!(
-        deck.model.bodies[0].material,
-        Material::Viscoelastic(_)
+        deck.model.bodies[0].material.law(),
+        Law::Viscoelastic(_)
     ));
 }
 

@@ -104,9 +104,9 @@ fn stiffness_is_the_derivative_of_the_force() {
         for (kind, formulation) in single::each_kind() {
             let (single, before, x) = led(kind, formulation, material);
             // Enhanced elements that flow plastically all over do not bear much more.
-            let scale = match material {
-                Material::Plastic(_) => 0.05,
-                _ => 1.0,
+            let scale = match material.yields() {
+                true => 0.05,
+                false => 1.0,
             };
             let mut actuation = actuation();
             actuation.strain *= scale;

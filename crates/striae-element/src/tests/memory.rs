@@ -16,8 +16,8 @@ fn materials() -> [Material; 2] {
     let constants = LameConstants::from_youngs_modulus(1.0, 0.3).unwrap();
     let hardening = Hardening::linear(0.02, 0.1).unwrap();
     [
-        Material::Viscoelastic(Viscoelastic::new(slow, &branches).unwrap()),
-        Material::Plastic(Plastic::new(constants, hardening)),
+        Material::viscoelastic(Viscoelastic::new(slow, &branches).unwrap()),
+        Material::plastic(Plastic::new(constants, hardening)),
     ]
 }
 

@@ -67,7 +67,7 @@ const ROUND_OFF: f64 = 1e-10;
 
 /// Everything the law of a material gets wrong, empty for a sound elastic law.
 ///
-/// [`Material::LinearElastic`] is not objective, which is what it is found guilty of.
+/// [Linear elasticity](Material::linear_elastic) is not objective, which is what it is found guilty of.
 pub fn battery(material: &Material) -> Vec<Violation> {
     let mut violations = Vec::new();
     let mut judge = |judged: Result<(), Violation>| violations.extend(judged.err());

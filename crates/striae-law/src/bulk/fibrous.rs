@@ -34,7 +34,9 @@
 //! doi:10.1023/A:1007410321319.
 
 use super::invariants::inverse;
-use super::{Direction, LameConstants, Material, Past, Present, Response, ResponseError, Tangent};
+use super::{
+    Direction, LameConstants, Law, Material, Past, Present, Response, ResponseError, Tangent,
+};
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 
@@ -108,6 +110,13 @@ const SLACK: f64 = 1e-13;
 /// `k2 E^2` up to which the exponential function is evaluated.
 const LARGEST_EXPONENT: f64 = 200.0;
 
+impl Material {
+    /// Families of fibres in a solid, which keeps the statement of its law.
+    pub fn fibrous(law: Fibrous) -> Self {
+        Self::new(Law::Fibrous(law), None)
+    }
+}
+
 impl Fibrous {
     /// Families of fibres in a ground.
     ///
@@ -116,10 +125,7 @@ impl Fibrous {
     /// When the ground is neither neo-Hookean nor rubber that does not relax, or a constant or
     /// direction is not admissible.
     pub fn new(ground: Material, families: &[Fibres]) -> Result<Self, InadmissibleFibres> {
-        if !matches!(
-            ground,
-            Material::NeoHookean { .. } | Material::Hyperelastic(_)
-        ) {
+        if !matches!(ground.law(), Law::NeoHookean { .. } | Law::Hyperelastic(_)) {
             return Err(InadmissibleFibres::Ground(ground.name().to_owned()));
         }
         if families.is_empty() {

@@ -13,6 +13,62 @@
 
 use serde::Serialize;
 
+use crate::declared::{Absent, NO_UNIT, NOT_NEGATIVE, POSITIVE, Parameter, Set, Values};
+
+/// Parameters of laws with a yield stress; [`Hardening::stated`] reads them.
+pub const HARDENING: Parameter = Parameter::one_of(
+    "hardening",
+    &[
+        Set {
+            doc: "A formula for the yield stress.",
+            parameters: &[
+                Parameter::number(
+                    "yield_stress",
+                    POSITIVE,
+                    "force per area",
+                    "First yield stress `Y0` of `Y = Y0 + (Ys - Y0) (1 - exp(-d p)) + H p` over the equivalent plastic strain `p`.",
+                ),
+                Parameter::number(
+                    "hardening_modulus",
+                    NOT_NEGATIVE,
+                    "force per area",
+                    "Hardening modulus `H`.",
+                )
+                .or(Absent::Number(0.0)),
+                Parameter::table(
+                    "saturation",
+                    &Set {
+                        doc: "Saturation by Voce's law.",
+                        parameters: &[
+                            Parameter::number(
+                                "stress",
+                                POSITIVE,
+                                "force per area",
+                                "Stress `Ys`, at least the first yield stress.",
+                            ),
+                            Parameter::number(
+                                "rate",
+                                POSITIVE,
+                                NO_UNIT,
+                                "Rate `d` over the plastic strain.",
+                            ),
+                        ],
+                    },
+                    "Saturation by Voce's law.",
+                )
+                .or(Absent::Nothing),
+            ],
+        },
+        Set {
+            doc: "Straight lines between points of the yield stress.",
+            parameters: &[Parameter::pairs(
+                "yield_table",
+                "Pairs of equivalent plastic strain, from 0 on, and yield stress, which must not fall; the last stress holds beyond.",
+            )],
+        },
+    ],
+);
+
 /// Yield stress over the equivalent plastic strain.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Hardening(HardeningForm);
@@ -72,6 +128,49 @@ pub enum InadmissibleHardening {
 const ITERATIONS: usize = 100;
 
 impl Hardening {
+    /// Hardening that the values of [`HARDENING`] state.
+    ///
+    /// # Errors
+    ///
+    /// As [`Hardening::voce`] and [`Hardening::table`].
+    pub fn stated(values: &Values) -> Result<Self, InadmissibleHardening> {
+        if let Some(pairs) = values.pairs_if_any("yield_table") {
+            return Self::table(pairs);
+        }
+        let [first, modulus] =
+            ["yield_stress", "hardening_modulus"].map(|name| values.number(name));
+        match values.table_if_any("saturation") {
+            None => Self::linear(first, modulus),
+            Some(of) => Self::voce(first, of.number("stress"), of.number("rate"), modulus),
+        }
+    }
+
+    /// Values that state it.
+    pub(super) fn values(&self) -> Values {
+        match &self.0 {
+            HardeningForm::Table(pairs) => Values::default().with("yield_table", pairs.to_vec()),
+            HardeningForm::Smooth {
+                yield_stress,
+                modulus,
+                saturation,
+                rate,
+            } => {
+                let straight = [
+                    ("yield_stress", *yield_stress),
+                    ("hardening_modulus", *modulus),
+                ];
+                let values = Values::from(straight);
+                match *rate > 0.0 {
+                    false => values,
+                    true => {
+                        let of = Values::from([("stress", *saturation), ("rate", *rate)]);
+                        values.with("saturation", of)
+                    }
+                }
+            }
+        }
+    }
+
     /// `Y = Y0 + H p`.
     ///
     /// # Errors

@@ -27,7 +27,7 @@ use nalgebra::{Matrix3, SVector};
 use num_dual::{Dual2SVec64, hessian};
 
 /// Dual numbers of `I1`, `I2` and `J`.
-pub(super) type Invariant = Dual2SVec64<3>;
+pub type Invariant = Dual2SVec64<3>;
 
 /// Response of the energy `W(I1, I2, J)`, whose arguments are invariants of `F` itself.
 #[allow(non_snake_case)]

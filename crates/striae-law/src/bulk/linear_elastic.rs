@@ -11,9 +11,28 @@
 //! The law is not objective: rotations produce strain. It serves for comparisons with closed forms
 //! of the linear theory. No deformation gradient is rejected.
 
-use super::{Response, Tangent};
+use super::{ELASTIC_CONSTANTS, LameConstants, Law, Material, Response, Tangent};
+use crate::declared::Declared;
 use nalgebra::Matrix3;
 use num_dual::DualNum;
+
+/// The law.
+pub static LINEAR_ELASTIC: Declared<Material> = Declared {
+    name: "linear-elastic",
+    summary: "Linear elasticity for small strains and small rotations.",
+    parameters: &[ELASTIC_CONSTANTS],
+    build: |values| Ok(Material::linear_elastic(LameConstants::stated(values)?)),
+    fit: None,
+};
+
+impl Material {
+    /// Linear elasticity with the given Lame constants.
+    pub fn linear_elastic(constants: LameConstants) -> Self {
+        let LameConstants { lambda, shear } = constants;
+        let law = Law::LinearElastic { lambda, shear };
+        Self::new(law, Some(LINEAR_ELASTIC.stated(constants.values())))
+    }
+}
 
 /// Stored energy `W` over any scalar.
 pub(super) fn energy<D: DualNum<Primitive = f64> + Copy>(

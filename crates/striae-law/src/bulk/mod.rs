@@ -13,8 +13,11 @@
 //! Laws with a memory have no energy that all stress comes from; they answer to a deformation
 //! after a [`Past`] and say what is dissipated. Their `A` is symmetric all the same.
 //!
-//! A law is one file: parameters, formula, source, response. User-defined laws implement
-//! [`BulkLaw`] in any crate.
+//! Longer than other files, as it joins all laws in one type.
+//!
+//! A law is one file: parameters, formula, source, response; [`LAWS`] lists what decks, the
+//! program and the Python package know by name. Further laws implement [`BulkLaw`], or
+//! [`IsochoricLaw`] if they are rubber, in any crate.
 
 mod analysis;
 mod battery;
@@ -24,13 +27,15 @@ mod fibrous;
 mod hardening;
 mod history;
 mod hyperelastic;
+mod inadmissible;
 mod invariants;
+mod isochoric;
 mod linear_elastic;
 mod moduli;
 mod neo_hookean;
-mod ogden;
 mod own;
 mod plastic;
+mod rubber;
 mod spectrum;
 #[cfg(test)]
 mod tests;
@@ -44,23 +49,75 @@ pub use direction::{Direction, LinesAbout};
 pub use fibrous::{FibreStiffness, Fibres, Fibrous, InadmissibleFibres};
 pub use hardening::{Hardening, HardeningForm, InadmissibleHardening};
 pub use history::{Field, Past, Present};
-pub use hyperelastic::{Hyperelastic, InadmissibleHyperelastic, Isochoric};
-pub use moduli::{InadmissibleModuli, LameConstants};
-pub use ogden::OgdenTerm;
+pub use hyperelastic::Hyperelastic;
+pub use inadmissible::Inadmissible;
+pub use invariants::Invariant;
+pub use isochoric::ogden::OgdenTerm;
+pub use isochoric::{InadmissibleHyperelastic, Isochoric, IsochoricLaw, OwnIsochoric};
+pub use moduli::{ELASTIC_CONSTANTS, InadmissibleModuli, LameConstants};
+pub use num_dual::DualNum;
 pub use own::{BulkLaw, Own};
 pub use plastic::Plastic;
+pub use rubber::RUBBER;
 use serde::Serialize;
 pub use viscoelastic::{Branch, InadmissibleBranch, Viscoelastic};
 pub use volumetric::Volumetric;
 
+use crate::declared::{Declared, Kind, Statement, Values};
 use nalgebra::{Matrix3, SMatrix, Vector3};
+
+/// The laws that decks, the program and the Python package know by name.
+pub static LAWS: &[&Declared<Material>] = &[
+    &neo_hookean::NEO_HOOKEAN,
+    &linear_elastic::LINEAR_ELASTIC,
+    &isochoric::neo_hookean::ISOCHORIC_NEO_HOOKEAN,
+    &isochoric::mooney_rivlin::MOONEY_RIVLIN,
+    &isochoric::yeoh::YEOH,
+    &isochoric::ogden::OGDEN,
+    &isochoric::gent::GENT,
+    &isochoric::arruda_boyce::ARRUDA_BOYCE,
+    &plastic::ELASTIC_PLASTIC,
+];
 
 /// First elasticity tensor `dP/dF`; row and column `3 i + J` for `F_iJ`.
 pub type Tangent = SMatrix<f64, 9, 9>;
 
-/// A bulk material.
+/// A bulk material; equal to others of the same law and constants, however these were stated.
+#[derive(Clone, Debug, Serialize)]
+#[serde(transparent)]
+pub struct Material {
+    law: Law,
+    #[serde(skip)]
+    statement: Option<Statement>,
+}
+
+impl PartialEq for Material {
+    fn eq(&self, other: &Self) -> bool {
+        self.law == other.law
+    }
+}
+
+impl Kind for Material {
+    type Refusal = Inadmissible;
+    type Fit = std::convert::Infallible;
+
+    fn with_statement(self, statement: Statement) -> Self {
+        let statement = Some(statement);
+        Self { statement, ..self }
+    }
+
+    fn statement(&self) -> Option<&Statement> {
+        self.statement.as_ref()
+    }
+
+    fn refused(refusal: &Inadmissible) -> Option<&'static str> {
+        refusal.parameter()
+    }
+}
+
+/// A bulk law with its constants.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub enum Material {
+pub enum Law {
     /// Compressible neo-Hookean solid.
     NeoHookean {
         /// First Lame constant.
@@ -87,6 +144,40 @@ pub enum Material {
     Fibrous(Fibrous),
     /// A law from outside the crate.
     Own(Own),
+}
+
+impl Law {
+    pub(super) fn name(&self) -> &str {
+        match self {
+            Self::NeoHookean { .. } => "neo-Hookean",
+            Self::LinearElastic { .. } => "linear elastic",
+            Self::Hyperelastic(law) => law.isochoric().name(),
+            Self::Viscoelastic(_) => "viscoelastic",
+            Self::Plastic(_) => "elastic-plastic",
+            Self::Fibrous(_) => "fibre-reinforced",
+            Self::Own(own) => own.law().name(),
+        }
+    }
+
+    /// Returns whether plastic flow limits the stress.
+    pub(super) fn yields(&self) -> bool {
+        matches!(self, Self::Plastic(_))
+    }
+
+    /// Returns whether rotations cost nothing.
+    pub(super) fn is_objective(&self) -> bool {
+        !matches!(self, Self::LinearElastic { .. })
+    }
+
+    pub(super) fn variables(&self) -> usize {
+        match self {
+            Self::Viscoelastic(law) => law.variables(),
+            Self::Plastic(law) => law.variables(),
+            Self::Fibrous(law) => law.variables(),
+            Self::Own(own) => own.law().variables(),
+            _ => 0,
+        }
+    }
 }
 
 /// Answer of a material to a deformation gradient.
@@ -142,91 +233,95 @@ pub enum ResponseError {
 }
 
 impl Material {
-    /// The neo-Hookean solid with the given Lame constants.
-    pub fn neo_hookean(constants: LameConstants) -> Self {
-        Self::neo_hookean_with(constants, Volumetric::Quadratic)
-    }
-
-    /// The neo-Hookean solid with the given Lame constants and volumetric energy.
-    pub fn neo_hookean_with(constants: LameConstants, volumetric: Volumetric) -> Self {
-        let LameConstants { lambda, shear } = constants;
-        Self::NeoHookean {
-            lambda,
-            shear,
-            volumetric,
-        }
-    }
-
-    /// Linear elasticity with the given Lame constants.
-    pub fn linear_elastic(constants: LameConstants) -> Self {
-        let LameConstants { lambda, shear } = constants;
-        Self::LinearElastic { lambda, shear }
-    }
-
     /// A law from outside the crate.
     pub fn own(law: impl BulkLaw + 'static) -> Self {
-        Self::Own(Own::new(law))
+        Self::new(Law::Own(Own::new(law)), None)
+    }
+
+    fn new(law: Law, statement: Option<Statement>) -> Self {
+        Self { law, statement }
+    }
+
+    /// Rubber of an isochoric energy and the values of [`RUBBER`].
+    ///
+    /// # Errors
+    ///
+    /// When a constant is not admissible; see [`Hyperelastic::new`] and [`Viscoelastic::new`].
+    pub fn rubber(isochoric: Isochoric, values: &Values) -> Result<Self, Inadmissible> {
+        let volumetric = Volumetric::stated(values);
+        let slow = match values.number_if_any(rubber::BULK_MODULUS) {
+            Some(bulk) => Hyperelastic::new(isochoric, bulk, volumetric),
+            None => {
+                let ratio = values.number("poissons_ratio");
+                Hyperelastic::with_poissons_ratio(isochoric, ratio, volumetric)
+            }
+        }?;
+        let Some(branches) = Branch::stated(values) else {
+            return Ok(Self::hyperelastic(slow));
+        };
+        Ok(Self::viscoelastic(Viscoelastic::new(slow, &branches)?))
+    }
+
+    /// The law with its constants.
+    pub fn law(&self) -> &Law {
+        &self.law
     }
 
     /// The name of the law.
     pub fn name(&self) -> &str {
-        match self {
-            Self::NeoHookean { .. } => "neo-Hookean",
-            Self::LinearElastic { .. } => "linear elastic",
-            Self::Hyperelastic(law) => law.isochoric().name(),
-            Self::Viscoelastic(_) => "viscoelastic",
-            Self::Plastic(_) => "elastic-plastic",
-            Self::Fibrous(_) => "fibre-reinforced",
-            Self::Own(own) => own.law().name(),
-        }
+        self.law.name()
+    }
+
+    /// Returns whether plastic flow, which keeps the volume, limits the stress.
+    pub fn yields(&self) -> bool {
+        self.law.yields()
+    }
+
+    /// Returns whether rotations cost nothing, as they do in all but small strains.
+    pub fn is_objective(&self) -> bool {
+        self.law.is_objective()
     }
 
     /// Number of internal variables of a point; zero if the law has none.
     pub fn variables(&self) -> usize {
-        match self {
-            Self::Viscoelastic(law) => law.variables(),
-            Self::Plastic(law) => law.variables(),
-            Self::Fibrous(law) => law.variables(),
-            Self::Own(own) => own.law().variables(),
-            _ => 0,
-        }
+        self.law.variables()
     }
 
     /// The variables of a point at rest at a place of the body: directions of fibres, else
     /// zeros.
     pub fn rest(&self, place: &Vector3<f64>) -> Vec<f64> {
-        match self {
-            Self::Fibrous(law) => law.rest(place),
+        match &self.law {
+            Law::Fibrous(law) => law.rest(place),
             _ => vec![0.0; self.variables()],
         }
     }
 
     /// The families of fibres.
     pub fn fibres(&self) -> &[Fibres] {
-        match self {
-            Self::Fibrous(law) => law.families(),
+        match &self.law {
+            Law::Fibrous(law) => law.families(),
             _ => &[],
         }
     }
 
     /// The material without its fibres.
     pub fn without_fibres(&self) -> &Self {
-        match self {
-            Self::Fibrous(law) => law.ground(),
+        match &self.law {
+            Law::Fibrous(law) => law.ground(),
             _ => self,
         }
     }
 
     /// Returns whether all stress derives from an energy.
     fn is_elastic(&self) -> bool {
-        self.variables() == 0 || matches!(self, Self::Fibrous(_))
+        self.variables() == 0 || matches!(self.law, Law::Fibrous(_))
     }
 
     /// Variables that are written with the results.
     pub fn fields(&self) -> Vec<Field> {
-        match self {
-            Self::Plastic(law) => law.fields(),
-            Self::Own(own) => own.law().fields(),
+        match &self.law {
+            Law::Plastic(law) => law.fields(),
+            Law::Own(own) => own.law().fields(),
             _ => Vec::new(),
         }
     }
@@ -243,11 +338,11 @@ impl Material {
         past: Past,
         present: &mut Present,
     ) -> Result<Response, ResponseError> {
-        match self {
-            Self::Viscoelastic(law) => law.respond(deformation_gradient, past, present),
-            Self::Plastic(law) => law.respond(deformation_gradient, past, present),
-            Self::Fibrous(law) => law.respond(deformation_gradient, past, present),
-            Self::Own(own) => own.law().respond(deformation_gradient, past, present),
+        match &self.law {
+            Law::Viscoelastic(law) => law.respond(deformation_gradient, past, present),
+            Law::Plastic(law) => law.respond(deformation_gradient, past, present),
+            Law::Fibrous(law) => law.respond(deformation_gradient, past, present),
+            Law::Own(own) => own.law().respond(deformation_gradient, past, present),
             _ => self.response(deformation_gradient),
         }
     }
@@ -261,17 +356,17 @@ impl Material {
     /// at a smaller stretch.
     pub fn response(&self, deformation_gradient: &Matrix3<f64>) -> Result<Response, ResponseError> {
         let f = deformation_gradient;
-        match self {
-            Self::NeoHookean {
+        match &self.law {
+            Law::NeoHookean {
                 lambda,
                 shear,
                 volumetric,
             } => neo_hookean::response(*lambda, *shear, *volumetric, f).map(Response::from),
-            Self::LinearElastic { lambda, shear } => {
+            Law::LinearElastic { lambda, shear } => {
                 Ok(linear_elastic::response(*lambda, *shear, f))
             }
-            Self::Hyperelastic(law) => law.response(f),
-            Self::Viscoelastic(_) | Self::Plastic(_) | Self::Fibrous(_) => {
+            Law::Hyperelastic(law) => law.response(f),
+            Law::Viscoelastic(_) | Law::Plastic(_) | Law::Fibrous(_) => {
                 let rest = self.rest(&Vector3::zeros());
                 let mut present = rest.clone();
                 let past = Past {
@@ -284,14 +379,14 @@ impl Material {
                 };
                 self.respond(f, past, &mut present)
             }
-            Self::Own(own) => own.law().response(f),
+            Law::Own(own) => own.law().response(f),
         }
     }
 
     /// The response as a function of the deformation gradient, where its tangent is compact.
     pub fn compact_response(&self) -> Option<impl Fn(&Matrix3<f64>) -> CompactResult + use<>> {
-        match *self {
-            Self::NeoHookean {
+        match self.law {
+            Law::NeoHookean {
                 lambda,
                 shear,
                 volumetric,
@@ -337,26 +432,26 @@ impl Material {
     }
 
     fn cauchy(&self, first_piola: &Matrix3<f64>, f: &Matrix3<f64>) -> Matrix3<f64> {
-        match self {
-            Self::LinearElastic { .. } => *first_piola,
-            _ => first_piola * f.transpose() / f.determinant(),
+        match self.is_objective() {
+            true => first_piola * f.transpose() / f.determinant(),
+            false => *first_piola,
         }
     }
 
     /// The Lame constants of the small-strain limit.
     pub fn lame_constants(&self) -> LameConstants {
-        match self {
-            Self::NeoHookean { lambda, shear, .. } | Self::LinearElastic { lambda, shear } => {
+        match &self.law {
+            Law::NeoHookean { lambda, shear, .. } | Law::LinearElastic { lambda, shear } => {
                 LameConstants {
                     lambda: *lambda,
                     shear: *shear,
                 }
             }
-            Self::Hyperelastic(law) => law.lame_constants(),
-            Self::Viscoelastic(law) => law.lame_constants(),
-            Self::Plastic(law) => law.lame_constants(),
-            Self::Fibrous(law) => law.lame_constants(),
-            Self::Own(own) => own.law().lame_constants(),
+            Law::Hyperelastic(law) => law.lame_constants(),
+            Law::Viscoelastic(law) => law.lame_constants(),
+            Law::Plastic(law) => law.lame_constants(),
+            Law::Fibrous(law) => law.lame_constants(),
+            Law::Own(own) => own.law().lame_constants(),
         }
     }
 }

@@ -9,6 +9,49 @@
 
 use serde::Serialize;
 
+use crate::declared::{ANY, NO_UNIT, POISSONS_RATIO, POSITIVE, Parameter, Set, Values};
+
+/// Parameters of laws with two elastic constants; [`LameConstants::stated`] reads them.
+pub const ELASTIC_CONSTANTS: Parameter = Parameter::one_of(
+    "elastic_constants",
+    &[
+        Set {
+            doc: "Young's modulus and Poisson's ratio.",
+            parameters: &[
+                Parameter::number(
+                    "youngs_modulus",
+                    POSITIVE,
+                    "force per area",
+                    "Young's modulus at small strain.",
+                ),
+                Parameter::number(
+                    "poissons_ratio",
+                    POISSONS_RATIO,
+                    NO_UNIT,
+                    "Poisson's ratio at small strain.",
+                ),
+            ],
+        },
+        Set {
+            doc: "Lame's constants.",
+            parameters: &[
+                Parameter::number(
+                    "lambda",
+                    ANY,
+                    "force per area",
+                    "First Lame constant; the bulk modulus, `lambda + 2/3 shear_modulus`, must be positive.",
+                ),
+                Parameter::number(
+                    "shear_modulus",
+                    POSITIVE,
+                    "force per area",
+                    "Shear modulus.",
+                ),
+            ],
+        },
+    ],
+);
+
 /// The pair of Lame constants.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct LameConstants {
@@ -27,9 +70,40 @@ pub enum InadmissibleModuli {
     /// Poisson's ratio must lie between -1 and 1/2.
     #[error("Poisson's ratio is {0}, but it must be above -1 and below 0.5")]
     PoissonsRatio(f64),
+    /// The bulk modulus must be positive.
+    #[error(
+        "`lambda` = {lambda} and `shear_modulus` = {shear} give a bulk modulus that is not positive"
+    )]
+    BulkModulus {
+        /// First Lame constant.
+        lambda: f64,
+        /// Shear modulus.
+        shear: f64,
+    },
 }
 
 impl LameConstants {
+    /// The constants that the values of [`ELASTIC_CONSTANTS`] state.
+    ///
+    /// # Errors
+    ///
+    /// When the material would not be stable.
+    pub fn stated(values: &Values) -> Result<Self, InadmissibleModuli> {
+        let Some(youngs_modulus) = values.number_if_any("youngs_modulus") else {
+            let [lambda, shear] = ["lambda", "shear_modulus"].map(|name| values.number(name));
+            if 3.0 * lambda + 2.0 * shear <= 0.0 {
+                return Err(InadmissibleModuli::BulkModulus { lambda, shear });
+            }
+            return Ok(Self { lambda, shear });
+        };
+        Self::from_youngs_modulus(youngs_modulus, values.number("poissons_ratio"))
+    }
+
+    /// Values that state the constants.
+    pub(super) fn values(&self) -> Values {
+        [("lambda", self.lambda), ("shear_modulus", self.shear)].into()
+    }
+
     /// From Young's modulus `E` and Poisson's ratio `nu`.
     ///
     /// # Errors

@@ -15,9 +15,46 @@
 //! elasticity with `lambda` and `G`.
 
 use super::invariants::inverse;
-use super::{CompactResult, CompactTangent, Response, Volumetric};
+use super::volumetric::VOLUMETRIC;
+use super::{
+    CompactResult, CompactTangent, ELASTIC_CONSTANTS, LameConstants, Law, Material, Response,
+    Volumetric,
+};
+use crate::declared::Declared;
 use nalgebra::Matrix3;
 use num_dual::DualNum;
+
+/// The law.
+pub static NEO_HOOKEAN: Declared<Material> = Declared {
+    name: "neo-hookean",
+    summary: "Compressible neo-Hookean solid for large strains; the modulus of the volumetric energy is `lambda`.",
+    parameters: &[ELASTIC_CONSTANTS, VOLUMETRIC],
+    build: |values| {
+        let constants = LameConstants::stated(values)?;
+        let volumetric = Volumetric::stated(values);
+        Ok(Material::neo_hookean_with(constants, volumetric))
+    },
+    fit: None,
+};
+
+impl Material {
+    /// The neo-Hookean solid with the given Lame constants.
+    pub fn neo_hookean(constants: LameConstants) -> Self {
+        Self::neo_hookean_with(constants, Volumetric::Quadratic)
+    }
+
+    /// The neo-Hookean solid with the given Lame constants and volumetric energy.
+    pub fn neo_hookean_with(constants: LameConstants, volumetric: Volumetric) -> Self {
+        let LameConstants { lambda, shear } = constants;
+        let law = Law::NeoHookean {
+            lambda,
+            shear,
+            volumetric,
+        };
+        let values = constants.values().with(VOLUMETRIC.name, volumetric.name());
+        Self::new(law, Some(NEO_HOOKEAN.stated(values)))
+    }
+}
 
 /// Stored energy `W` over any scalar; not a number where `J <= 0`.
 pub(super) fn energy<D: DualNum<Primitive = f64> + Copy>(

@@ -24,10 +24,36 @@
 //! doi:10.1016/0045-7825(92)90123-2; Weber & Anand, Comput. Methods Appl. Mech. Eng. 79
 //! (1990) 173-202, doi:10.1016/0045-7825(90)90131-5.
 
+use super::hardening::HARDENING;
 use super::spectrum::{FLOW, Spectrum};
-use super::{Field, Hardening, LameConstants, Past, Present, Response, ResponseError, Tangent};
+use super::{
+    ELASTIC_CONSTANTS, Field, Hardening, LameConstants, Law, Material, Past, Present, Response,
+    ResponseError, Tangent,
+};
+use crate::declared::Declared;
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
+
+/// The law.
+pub static ELASTIC_PLASTIC: Declared<Material> = Declared {
+    name: "elastic-plastic",
+    summary: "Metal with von Mises plasticity and isotropic hardening, for large strains.",
+    parameters: &[ELASTIC_CONSTANTS, HARDENING],
+    build: |values| {
+        let constants = LameConstants::stated(values)?;
+        let hardening = Hardening::stated(values)?;
+        Ok(Material::plastic(Plastic::new(constants, hardening)))
+    },
+    fit: None,
+};
+
+impl Material {
+    /// Metal that yields.
+    pub fn plastic(law: Plastic) -> Self {
+        let values = law.constants.values().followed_by(law.hardening.values());
+        Self::new(Law::Plastic(law), Some(ELASTIC_PLASTIC.stated(values)))
+    }
+}
 
 /// An elastic solid that yields.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -27,13 +27,13 @@ fn laws() -> [Material; 3] {
 }
 
 fn energy<D: DualNum<Primitive = f64> + Copy>(law: &Material, f: &Matrix3<D>) -> D {
-    match law {
-        Material::NeoHookean {
+    match law.law() {
+        Law::NeoHookean {
             lambda,
             shear,
             volumetric,
         } => neo_hookean::energy(*lambda, *shear, *volumetric, f),
-        Material::LinearElastic { lambda, shear } => linear_elastic::energy(*lambda, *shear, f),
+        Law::LinearElastic { lambda, shear } => linear_elastic::energy(*lambda, *shear, f),
         _ => unreachable!("laws of invariants state nothing but their energy"),
     }
 }

@@ -29,10 +29,37 @@
 //! The ratios are those of Holzapfel, "Nonlinear Solid Mechanics"
 //! (2000), section 6.10. Why not the convolution of that book: `docs/decisions/viscoelasticity.md`.
 
+use super::rubber::RELAXATION;
 use super::spectrum::{FLOW, Spectrum};
-use super::{Hyperelastic, LameConstants, Past, Present, Response, ResponseError};
+use super::{Hyperelastic, LameConstants, Law, Material, Past, Present, Response, ResponseError};
+use crate::declared::Values;
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
+
+impl Branch {
+    /// Branches that the value of [`RELAXATION`] states, if there are any.
+    pub(super) fn stated(values: &Values) -> Option<Vec<Self>> {
+        let branch = |values: &Values| Self {
+            ratio: values.number("ratio"),
+            time: values.number("time"),
+        };
+        let all = values.tables_if_any(RELAXATION.name)?;
+        Some(all.iter().map(branch).collect())
+    }
+}
+
+impl Material {
+    /// Rubber that relaxes.
+    pub fn viscoelastic(law: Viscoelastic) -> Self {
+        let branch = |of: &Branch| Values::from([("ratio", of.ratio), ("time", of.time)]);
+        let branches: Vec<Values> = law.branches.iter().map(branch).collect();
+        let statement = law.slow.statement().map(|mut slow| {
+            slow.values = slow.values.with(RELAXATION.name, branches);
+            slow
+        });
+        Self::new(Law::Viscoelastic(law), statement)
+    }
+}
 
 /// A spring and a dashpot in series.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

@@ -9,6 +9,12 @@ pub enum Value {
     Numbers(Vec<f64>),
     /// One of the words of the parameter.
     Word(&'static str),
+    /// A list of pairs of numbers.
+    Pairs(Vec<[f64; 2]>),
+    /// Values of parameters of its own.
+    Table(Values),
+    /// A list of them.
+    Tables(Vec<Values>),
 }
 
 /// Values of parameters by their names.
@@ -19,6 +25,12 @@ impl Values {
     /// Returns the values with one more.
     pub fn with(mut self, name: &'static str, value: impl Into<Value>) -> Self {
         self.0.push((name, value.into()));
+        self
+    }
+
+    /// Returns the values with others behind them.
+    pub fn followed_by(mut self, others: Self) -> Self {
+        self.0.extend(others.0);
         self
     }
 
@@ -82,6 +94,39 @@ impl Values {
         });
         found.expect("the law declares the word it asks for")
     }
+
+    /// Returns pairs of numbers, if they are there.
+    pub fn pairs_if_any(&self, name: &str) -> Option<&[[f64; 2]]> {
+        match self.get(name)? {
+            Value::Pairs(pairs) => Some(pairs),
+            _ => None,
+        }
+    }
+
+    /// Returns the values of a table, if it is there.
+    pub fn table_if_any(&self, name: &str) -> Option<&Self> {
+        match self.get(name)? {
+            Value::Table(values) => Some(values),
+            _ => None,
+        }
+    }
+
+    /// Returns the values of tables, if they are there.
+    pub fn tables_if_any(&self, name: &str) -> Option<&[Self]> {
+        match self.get(name)? {
+            Value::Tables(all) => Some(all),
+            _ => None,
+        }
+    }
+
+    /// Returns the values of tables.
+    ///
+    /// # Panics
+    /// When there are none of that name.
+    pub fn tables(&self, name: &str) -> &[Self] {
+        let found = self.tables_if_any(name);
+        found.expect("the law declares the tables it asks for")
+    }
 }
 
 impl<const N: usize> From<[(&'static str, f64); N]> for Values {
@@ -116,6 +161,24 @@ impl From<Vec<f64>> for Value {
 impl From<&[f64]> for Value {
     fn from(numbers: &[f64]) -> Self {
         Self::Numbers(numbers.to_vec())
+    }
+}
+
+impl From<Vec<[f64; 2]>> for Value {
+    fn from(pairs: Vec<[f64; 2]>) -> Self {
+        Self::Pairs(pairs)
+    }
+}
+
+impl From<Values> for Value {
+    fn from(values: Values) -> Self {
+        Self::Table(values)
+    }
+}
+
+impl From<Vec<Values>> for Value {
+    fn from(all: Vec<Values>) -> Self {
+        Self::Tables(all)
     }
 }
 

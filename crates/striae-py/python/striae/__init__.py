@@ -39,20 +39,9 @@ from ._friction import Friction, OwnFriction, SlipSurface
 from ._gradient import differentiate
 from ._laws import *
 from ._laws import __all__ as _laws
-from ._material import (
-    ArrudaBoyce,
-    ElasticPlastic,
-    Gent,
-    IsochoricNeoHookean,
-    LinearElastic,
-    Material,
-    MooneyRivlin,
-    NeoHookean,
-    Ogden,
-    OwnMaterial,
-    Rubber,
-    Yeoh,
-)
+from ._material import Material, OwnMaterial, Rubber
+from ._materials import *
+from ._materials import __all__ as _materials
 from ._mesh import (
     Grading,
     Mesh,
@@ -89,7 +78,6 @@ from ._tie import Tie
 
 __all__ = [
     "Advice",
-    "ArrudaBoyce",
     "Axial",
     "Body",
     "BodyResults",
@@ -103,7 +91,6 @@ __all__ = [
     "Course",
     "CylindricalAxes",
     "Dynamics",
-    "ElasticPlastic",
     "Energies",
     "ExponentialFibres",
     "FactorPoints",
@@ -114,24 +101,18 @@ __all__ = [
     "Fit",
     "Friction",
     "FrictionFit",
-    "Gent",
     "Grading",
     "History",
     "Increment",
     "Increments",
-    "IsochoricNeoHookean",
-    "LinearElastic",
     "LinearFibres",
     "Material",
     "Measurements",
     "Mesh",
     "Model",
     "ModelError",
-    "MooneyRivlin",
-    "NeoHookean",
     "Nodal",
     "NormalAxis",
-    "Ogden",
     "OwnFriction",
     "OwnMaterial",
     "Painted",
@@ -165,7 +146,6 @@ __all__ = [
     "Tie",
     "TieResults",
     "Uniform",
-    "Yeoh",
     "annulus",
     "block",
     "capped_block",
@@ -183,3 +163,4 @@ __all__ = [
 ]
 
 __all__ += _laws
+__all__ += _materials

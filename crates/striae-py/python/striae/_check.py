@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, Literal, Optional, Protocol, TypeAlias, TypeVar, Union
 
 import numpy as np
@@ -37,7 +37,9 @@ Along: TypeAlias = Union[
 ]
 Members: TypeAlias = Union[npt.ArrayLike, Callable[[Floats], npt.ArrayLike]]
 
-Values: TypeAlias = dict[str, Union[float, list[float], str, None]]
+Values: TypeAlias = dict[
+    str, Union[float, list[float], str, tuple[float, ...], list[tuple[float, ...]], None]
+]
 
 CURVES = ("ramp", "constant", "smooth")
 
@@ -186,6 +188,18 @@ def numbers(value: Any, path: str) -> list[float]:
         raise refuse(path, f"an array of one dimension is needed, not of {found.ndim}")
     listed: list[float] = found.astype(np.float64).tolist()
     return listed
+
+
+def row(value: Any, path: str, count: int) -> tuple[float, ...]:
+    """``count`` finite numbers that belong together."""
+    return tuple(vector(value, path, count))
+
+
+def rows_of(values: Any, path: str, count: int) -> list[tuple[float, ...]]:
+    """A list of rows of ``count`` finite numbers."""
+    if isinstance(values, (str, bytes)) or not isinstance(values, Iterable):
+        raise TypeError(f"{path}: a list is needed, not {type(values).__name__}")
+    return [row(one, path, count) for one in values]
 
 
 def positive(value: Any, path: str) -> float:

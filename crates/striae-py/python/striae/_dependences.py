@@ -29,11 +29,11 @@ class Dependences(Made):
         ``mu p0 (p/p0)^m``, coefficients ``mu (p/p0)^(m - 1)``.
 
         exponent: ``m``, below 1 for coefficients that fall with the pressure; 2/3 for one elastic
-            contact (no unit).
-        pressure: ``p0``, the pressure at which the coefficients are those that the law states
-            (force per area).
+            contact; greater than 0 (no unit).
+        pressure: ``p0``, the pressure at which the coefficients are those that the law states;
+            greater than 0 (force per area).
         floor: pressure below which, for ``m`` below 1, friction goes to zero along a parabola,
-            with a finite slope (force per area); ``p0/1000`` by default.
+            with a finite slope; greater than 0 (force per area); ``p0/1000`` by default.
         """
         values: Values = {
             "exponent": check.number(exponent, "exponent"),
@@ -46,9 +46,9 @@ class Dependences(Made):
         """Returns the law with a dependence ``by_pressure``, in place of another one. Friction
         ``mu (p + p_ad)`` with a pressure by adhesion, Derjaguin's law.
 
-        pressure: ``p_ad`` (force per area).
-        floor: pressure below which friction goes to zero along a parabola, with a finite slope
-            (force per area); ``p_ad/20`` by default.
+        pressure: ``p_ad``; greater than 0 (force per area).
+        floor: pressure below which friction goes to zero along a parabola, with a finite slope;
+            greater than 0 (force per area); ``p_ad/20`` by default.
         """
         values: Values = {
             "pressure": check.number(pressure, "pressure"),
@@ -60,8 +60,8 @@ class Dependences(Made):
         """Returns the law with a dependence ``by_pressure``, in place of another one. Friction
         ``tau tanh(mu p/tau)``, which comes smoothly to a shear stress.
 
-        shear_stress: ``tau``. The coefficients that the law states are those of low pressures
-            (force per area).
+        shear_stress: ``tau``. The coefficients that the law states are those of low pressures;
+            greater than 0 (force per area).
         """
         values: Values = {
             "shear_stress": check.number(shear_stress, "shear_stress"),
@@ -76,9 +76,9 @@ class Dependences(Made):
         """Returns the law with a dependence ``by_pressure``, in place of another one. Coefficients
         times a factor by the pressure.
 
-        pressures: pressures, at least two, ascending (force per area).
+        pressures: pressures, at least two, ascending; at least 0 (force per area).
         factors: factor at each pressure: monotone and smooth between them, constant beyond the
-            first and the last (no unit).
+            first and the last; greater than 0 (no unit).
         """
         values: Values = {
             "pressures": check.numbers(pressures, "pressures"),
@@ -97,10 +97,11 @@ class Dependences(Made):
         Coefficients times ``c + (1 - c) exp(-(v/v_s)^d) + k v``, Stribeck's curve.
 
         kinetic_over_static: ``c``, coefficients in fast slip without the viscous part over those
-            at rest, which the law states (no unit).
-        slip_rate: ``v_s`` (length per time).
-        exponent: ``d`` (no unit).
-        viscous: ``k``, the viscous part over the coefficients at rest (time per length).
+            at rest, which the law states; at least 0 (no unit).
+        slip_rate: ``v_s``; greater than 0 (length per time).
+        exponent: ``d``; at least 1 (no unit).
+        viscous: ``k``, the viscous part over the coefficients at rest; at least 0 (time per
+            length).
         """
         values: Values = {
             "kinetic_over_static": check.number(kinetic_over_static, "kinetic_over_static"),
@@ -121,9 +122,9 @@ class Dependences(Made):
 
         factor: ``a``: positive for friction that rises with the slip rate, negative for friction
             that falls (no unit).
-        slip_rate: ``v_0`` (length per time).
-        limit: slip rate from which on the coefficients are constant; needed where they fall
-            (length per time); none by default.
+        slip_rate: ``v_0``; greater than 0 (length per time).
+        limit: slip rate from which on the coefficients are constant; needed where they fall;
+            greater than 0 (length per time); none by default.
         """
         values: Values = {
             "factor": check.number(factor, "factor"),
@@ -140,9 +141,9 @@ class Dependences(Made):
         """Returns the law with a dependence ``by_slip_rate``, in place of another one.
         Coefficients times a factor by the slip rate.
 
-        slip_rates: slip rates, at least two, ascending (length per time).
+        slip_rates: slip rates, at least two, ascending; at least 0 (length per time).
         factors: factor at each slip rate: monotone and smooth between them, constant beyond the
-            first and the last (no unit).
+            first and the last; greater than 0 (no unit).
         """
         values: Values = {
             "slip_rates": check.numbers(slip_rates, "slip_rates"),
@@ -155,8 +156,9 @@ class Dependences(Made):
         Coefficients times ``w + (1 - w) exp(-s/s_0)``, as a surface runs in.
 
         final_over_initial: ``w``, coefficients after long slip over those at the start, which the
-            law states (no unit).
-        slip: ``s_0``, the slip after which the difference has fallen to 1/e (length).
+            law states; greater than 0 (no unit).
+        slip: ``s_0``, the slip after which the difference has fallen to 1/e; greater than 0
+            (length).
         """
         values: Values = {
             "final_over_initial": check.number(final_over_initial, "final_over_initial"),
@@ -172,9 +174,9 @@ class Dependences(Made):
         """Returns the law with a dependence ``by_accumulated_slip``, in place of another one.
         Coefficients times a factor by the accumulated slip.
 
-        slips: accumulated slips, at least two, ascending (length).
+        slips: accumulated slips, at least two, ascending; at least 0 (length).
         factors: factor after each slip: monotone and smooth between them, constant beyond the
-            first and the last (no unit).
+            first and the last; greater than 0 (no unit).
         """
         values: Values = {
             "slips": check.numbers(slips, "slips"),
@@ -195,15 +197,15 @@ class Dependences(Made):
         theta/D``: contacts grow stronger at rest.
 
         direct_effect: ``a``, by which the largest coefficient rises at once as the slip rate rises
-            by a factor of e (no unit).
+            by a factor of e; greater than 0 (no unit).
         evolution_effect: ``b``, by which it falls again as the state follows; above ``a`` for
-            friction that is less in faster steady slip (no unit).
+            friction that is less in faster steady slip; at least 0 (no unit).
         slip_rate: ``v_0``, the rate at which coefficients in steady slip are those that the law
-            states (length per time).
-        slip_distance: ``D``, the slip over which the state follows a change of the slip rate
-            (length).
-        state: ``theta`` at the start; by default that of steady slip at ``slip_rate`` (time);
-            ``slip_distance/slip_rate`` by default.
+            states; greater than 0 (length per time).
+        slip_distance: ``D``, the slip over which the state follows a change of the slip rate;
+            greater than 0 (length).
+        state: ``theta`` at the start; by default that of steady slip at ``slip_rate``; greater
+            than 0 (time); ``slip_distance/slip_rate`` by default.
         """
         values: Values = {
             "direct_effect": check.number(direct_effect, "direct_effect"),
@@ -227,15 +229,15 @@ class Dependences(Made):
         theta/D) ln(v theta/D)``: the state changes with slip only.
 
         direct_effect: ``a``, by which the largest coefficient rises at once as the slip rate rises
-            by a factor of e (no unit).
+            by a factor of e; greater than 0 (no unit).
         evolution_effect: ``b``, by which it falls again as the state follows; above ``a`` for
-            friction that is less in faster steady slip (no unit).
+            friction that is less in faster steady slip; at least 0 (no unit).
         slip_rate: ``v_0``, the rate at which coefficients in steady slip are those that the law
-            states (length per time).
-        slip_distance: ``D``, the slip over which the state follows a change of the slip rate
-            (length).
-        state: ``theta`` at the start; by default that of steady slip at ``slip_rate`` (time);
-            ``slip_distance/slip_rate`` by default.
+            states; greater than 0 (length per time).
+        slip_distance: ``D``, the slip over which the state follows a change of the slip rate;
+            greater than 0 (length).
+        state: ``theta`` at the start; by default that of steady slip at ``slip_rate``; greater
+            than 0 (time); ``slip_distance/slip_rate`` by default.
         """
         values: Values = {
             "direct_effect": check.number(direct_effect, "direct_effect"),
@@ -258,10 +260,13 @@ class Dependences(Made):
         from static to kinetic and heals exponentially at rest.
 
         kinetic_over_static: ``c``, coefficients after long slip without healing over those healed,
-            which the law states (no unit).
-        slip_distance: ``D``, the slip over which what has healed falls to 1/e (length).
-        healing_time: ``T``, after which the difference has fallen to 1/e at rest (time).
-        state: ``psi`` at the start, from 0 for kinetic to 1 for healed (no unit).
+            which the law states; at least 0 and at most 1 (no unit).
+        slip_distance: ``D``, the slip over which what has healed falls to 1/e; greater than 0
+            (length).
+        healing_time: ``T``, after which the difference has fallen to 1/e at rest; greater than 0
+            (time).
+        state: ``psi`` at the start, from 0 for kinetic to 1 for healed; at least 0 and at most 1
+            (no unit).
         """
         values: Values = {
             "kinetic_over_static": check.number(kinetic_over_static, "kinetic_over_static"),
@@ -283,11 +288,12 @@ class Dependences(Made):
         to kinetic and heals with the logarithm of the time at rest.
 
         factor: ``f``, by which coefficients rise over the kinetic ones, which the law states, as
-            the time at rest grows by a factor of e (no unit).
-        slip_distance: ``D``, the slip over which what has healed falls to 1/e (length).
-        healing_time: ``T``, the time at rest from which on friction goes with the logarithm
-            (time).
-        state: ``theta`` at the start, the time that surfaces have been at rest (time).
+            the time at rest grows by a factor of e; at least 0 (no unit).
+        slip_distance: ``D``, the slip over which what has healed falls to 1/e; greater than 0
+            (length).
+        healing_time: ``T``, the time at rest from which on friction goes with the logarithm;
+            greater than 0 (time).
+        state: ``theta`` at the start, the time that surfaces have been at rest; at least 0 (time).
         """
         values: Values = {
             "factor": check.number(factor, "factor"),
@@ -301,9 +307,10 @@ class Dependences(Made):
         """Returns the law with a dependence ``decay``, in place of another one. Decay of friction
         from rest to fast slip, ``kinetic + (static - kinetic) exp(-rate/slip_rate)``.
 
-        kinetic_over_static: coefficients in fast slip over those at rest, which the law states (no
-            unit).
-        slip_rate: rate of slip at which the difference has fallen to 1/e (length per time).
+        kinetic_over_static: coefficients in fast slip over those at rest, which the law states; at
+            least 0 (no unit).
+        slip_rate: rate of slip at which the difference has fallen to 1/e; greater than 0 (length
+            per time).
         """
         values: Values = {
             "kinetic_over_static": check.number(kinetic_over_static, "kinetic_over_static"),

@@ -9,7 +9,8 @@ from . import _check as check
 from . import _striae as native
 from ._check import Vector
 from ._errors import refuse
-from ._material import Material, NeoHookean, Rubber
+from ._material import Material, Rubber
+from ._materials import NeoHookean
 from ._texture import Axial, Circumferential, Radial, Texture, Uniform, texture
 
 Stiffness = Union[tuple[float, float, float], float]

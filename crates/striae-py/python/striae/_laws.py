@@ -34,7 +34,7 @@ class Coulomb(Friction):
     def __init__(self, mu: float) -> None:
         """Makes the law.
 
-        mu: coefficient of friction (no unit).
+        mu: coefficient of friction; at least 0 (no unit).
         """
         values: Values = {
             "mu": check.number(mu, "mu"),
@@ -48,7 +48,7 @@ class TwoTextures(Friction):
     def __init__(self, mu: float, c_mag: float, c_ang: float, c_cen: float) -> None:
         """Makes the law.
 
-        mu: coefficient of friction (no unit).
+        mu: coefficient of friction; at least 0 (no unit).
         c_mag: dependence of the magnitude on the angle between the textures (no unit).
         c_ang: dependence on the angle between slip and textures (no unit).
         c_cen: difference between slip with and against the textures (no unit).
@@ -73,8 +73,8 @@ class Orthotropic(Friction):
     ) -> None:
         """Makes the law.
 
-        mu_along: coefficient of friction along the texture (no unit).
-        mu_across: coefficient of friction across the texture (no unit).
+        mu_along: coefficient of friction along the texture; greater than 0 (no unit).
+        mu_across: coefficient of friction across the texture; greater than 0 (no unit).
         slip_rule: direction of slip: ``opposing``: Each component of friction opposes that
             component of slip; ``associated``: Slip is normal to the slip surface.
         """
@@ -92,9 +92,9 @@ class Nap(Friction):
     def __init__(self, mu_forward: float, mu_backward: float, mu_lateral: float) -> None:
         """Makes the law.
 
-        mu_forward: coefficient of friction of slip with the nap (no unit).
-        mu_backward: coefficient of friction of slip against the nap (no unit).
-        mu_lateral: coefficient of friction of slip across the nap (no unit).
+        mu_forward: coefficient of friction of slip with the nap; greater than 0 (no unit).
+        mu_backward: coefficient of friction of slip against the nap; greater than 0 (no unit).
+        mu_lateral: coefficient of friction of slip across the nap; greater than 0 (no unit).
         """
         values: Values = {
             "mu_forward": check.number(mu_forward, "mu_forward"),
@@ -117,7 +117,8 @@ class Tabulated(SampledFriction):
         angles: directions in which the textured surface slips over the other one: angles from its
             texture ``a`` (across the grooves, against a nap), counter-clockwise as seen from
             outside it; at least three, ascending, less than a turn (degrees).
-        mu: coefficient of friction at each angle; monotone and smooth between them (no unit).
+        mu: coefficient of friction at each angle; monotone and smooth between them; greater than 0
+            (no unit).
         """
         values: Values = {
             "angles": check.numbers(angles, "angles"),

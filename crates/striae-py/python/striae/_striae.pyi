@@ -17,10 +17,7 @@ _Along = Union[
     tuple[str, Optional[float], list[tuple[float, float]], str],
 ]
 _Path = Union[str, PathLike[str]]
-_Given = Union[float, list[float], str]
-_Told = tuple[
-    str, str, list[tuple[str, str]], str, str, tuple[bool, Optional[_Given], str]
-]
+_Given = Union[float, list[float], str, tuple[float, ...], list[tuple[float, ...]]]
 Watching = tuple[Optional[Callable[[Results], object]], int, Optional[int]]
 Recording = Optional[tuple[_Path, Optional[str], Optional[int]]]
 Pictured = tuple[
@@ -128,32 +125,11 @@ def own_material(
     name: str, function: Callable[[_Floats], Optional[tuple[float, _Floats, _Floats]]]
 ) -> Material: ...
 
-Hardening = Union[
-    tuple[float, float], tuple[float, float, tuple[float, float]], list[list[float]]
-]
-
 class Material:
     @staticmethod
-    def neo_hookean(
-        youngs_modulus: float, poissons_ratio: float, logarithmic: bool
-    ) -> Material: ...
-    @staticmethod
-    def linear_elastic(youngs_modulus: float, poissons_ratio: float) -> Material: ...
-    @staticmethod
-    def rubber(
-        law: str,
-        constants: list[float],
-        bulk_modulus: Optional[float],
-        poissons_ratio: Optional[float],
-        logarithmic: bool,
-    ) -> Material: ...
-    def relaxing(self, branches: list[tuple[float, float]]) -> Material: ...
+    def declared(class_: str, law: str, values: list[tuple[str, _Given]]) -> Material: ...
     def with_fibres(
         self, families: list[tuple[Union[tuple[float, float, float], float], Texture]]
-    ) -> Material: ...
-    @staticmethod
-    def elastic_plastic(
-        youngs_modulus: float, poissons_ratio: float, hardening: Hardening
     ) -> Material: ...
     def constants(self) -> tuple[float, float]: ...
     def response(
@@ -178,7 +154,19 @@ def measurements_of(
     text: str, file: str, columns: list[tuple[str, str]], along: bool, skipped: int
 ) -> tuple[_Floats, _Floats, _Floats, Optional[_Floats], _Floats, list[str]]: ...
 
-def declared_laws() -> list[tuple[str, list[tuple[str, str, bool, list[_Told]]]]]: ...
+class Parameter:
+    name: str
+    form: str
+    words: list[tuple[str, str]]
+    bounds: list[tuple[str, float]]
+    unit: str
+    doc: str
+    is_required: bool
+    value: Optional[_Given]
+    default: str
+    sets: list[tuple[str, list[Parameter]]]
+
+def declared_laws() -> list[tuple[str, list[tuple[str, str, bool, list[Parameter]]]]]: ...
 
 class Friction:
     @staticmethod

@@ -92,7 +92,7 @@ fn fibres_pull_and_grow_as_lines_along_them() {
         stiffness: FibreStiffness::Linear { modulus },
         direction: Direction::Uniform(direction * 3.0),
     };
-    let material = Material::Fibrous(Fibrous::new(rubber(1.0, 0.3), &[fibres]).unwrap());
+    let material = Material::fibrous(Fibrous::new(rubber(1.0, 0.3), &[fibres]).unwrap());
     let value = 0.1;
     let along = direction;
     for (of_fibres, of_lines) in [

@@ -196,7 +196,7 @@ fn mean_dilatation_under_a_load_beside_contact() {
     let soft = Isochoric::NeoHookean { shear: 1.0 };
     let soft = Hyperelastic::new(soft, 200.0, Volumetric::Logarithmic).unwrap();
     let mut model = two_blocks(0.5);
-    model.bodies[1].material = Material::Hyperelastic(soft);
+    model.bodies[1].material = Material::hyperelastic(soft);
     model.bodies[1].formulation = Formulation::MeanDilatation;
     let pressure = LoadKind::Pressure(0.02);
     let exposed = model.load("lower", "zmax", pressure, LoadExtent::Exposed);

@@ -19,13 +19,13 @@ fn viscoelastic() -> Material {
         ratio: 1.5,
         time: 0.5,
     };
-    Material::Viscoelastic(Viscoelastic::new(slow, &[branch]).unwrap())
+    Material::viscoelastic(Viscoelastic::new(slow, &[branch]).unwrap())
 }
 
 fn metal() -> Material {
     let constants = LameConstants::from_youngs_modulus(100.0, 0.3).unwrap();
     let hardening = Hardening::voce(0.5, 0.8, 6.0, 0.4).unwrap();
-    Material::Plastic(Plastic::new(constants, hardening))
+    Material::plastic(Plastic::new(constants, hardening))
 }
 
 /// A block on a plane, pressed and slid.

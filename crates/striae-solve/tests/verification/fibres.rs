@@ -16,7 +16,7 @@ fn linear(ground: Material, modulus: f64, direction: Direction) -> Material {
         stiffness,
         direction,
     };
-    Material::Fibrous(Fibrous::new(ground, &[fibres]).unwrap())
+    Material::fibrous(Fibrous::new(ground, &[fibres]).unwrap())
 }
 
 /// A cube that slides on three planes of symmetry and is stretched along `z` in quarters.
@@ -94,9 +94,9 @@ fn incompressible_tissue_has_its_closed_form_in_tension() {
         stiffness,
         direction: Direction::Uniform(Vec3::z()),
     };
-    let material = Fibrous::new(Material::Hyperelastic(ground), &[fibres]).unwrap();
+    let material = Fibrous::new(Material::hyperelastic(ground), &[fibres]).unwrap();
     let run = stretched(
-        Material::Fibrous(material),
+        Material::fibrous(material),
         Formulation::MeanDilatation,
         stretch,
     );
@@ -122,8 +122,8 @@ fn incompressible_tissue_is_stretched_in_one_increment() {
         stiffness,
         direction: Direction::Uniform(Vec3::z()),
     };
-    let material = Fibrous::new(Material::Hyperelastic(ground), &[fibres]).unwrap();
-    let material = Material::Fibrous(material);
+    let material = Fibrous::new(Material::hyperelastic(ground), &[fibres]).unwrap();
+    let material = Material::fibrous(material);
     for stretch in [1.02, 1.2] {
         let mean = Formulation::MeanDilatation;
         let whole = stretched_in(whole(), material.clone(), mean, stretch);
@@ -151,7 +151,7 @@ fn pressed() -> Model {
         stiffness,
         direction,
     }];
-    let material = Material::Fibrous(Fibrous::new(rubber(1.0, 0.3), &fibres).unwrap());
+    let material = Material::fibrous(Fibrous::new(rubber(1.0, 0.3), &fibres).unwrap());
     let upper = BodySection {
         set: "upper".into(),
         elements: (9..18).map(ElementId::new).collect(),

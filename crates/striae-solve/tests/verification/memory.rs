@@ -21,7 +21,7 @@ const BRANCH: Branch = Branch {
 fn viscoelastic() -> Material {
     let slow = Isochoric::NeoHookean { shear: SHEAR };
     let slow = Hyperelastic::new(slow, 5.0, Volumetric::Logarithmic).unwrap();
-    Material::Viscoelastic(Viscoelastic::new(slow, &[BRANCH]).unwrap())
+    Material::viscoelastic(Viscoelastic::new(slow, &[BRANCH]).unwrap())
 }
 
 fn hardening() -> Hardening {
@@ -30,7 +30,7 @@ fn hardening() -> Hardening {
 
 fn metal() -> Material {
     let constants = LameConstants::from_youngs_modulus(100.0, 0.3).unwrap();
-    Material::Plastic(Plastic::new(constants, hardening()))
+    Material::plastic(Plastic::new(constants, hardening()))
 }
 
 /// A block on a plane, pressed and slid to and fro in so many increments a step.

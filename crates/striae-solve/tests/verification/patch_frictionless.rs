@@ -10,7 +10,10 @@
 use crate::scene::{Places, Run, block, body, largest_distance, model, rubber, step};
 use nalgebra::{Matrix2, Matrix3, Vector2};
 use striae_contact::side::Side;
-use striae_law::{bulk::Material, friction::Friction};
+use striae_law::{
+    bulk::{LameConstants, Material},
+    friction::Friction,
+};
 use striae_mesh::{CellKind, Vec3, generate::Block};
 use striae_solve::model::{LoadExtent, LoadKind, Model};
 
@@ -41,10 +44,7 @@ fn case(origin: [f64; 2], size: [f64; 2], divisions: [usize; 2]) -> Case {
 
 /// Stretches `a`, `b` under the pressure, by Newton's method.
 fn stretches(material: &Material) -> [f64; 2] {
-    let (g, lambda) = match material {
-        Material::NeoHookean { lambda, shear, .. } => (*shear, *lambda),
-        _ => unreachable!(),
-    };
+    let LameConstants { lambda, shear: g } = material.lame_constants();
     let residual = |v: Vector2<f64>| {
         let j = v.x * v.x * v.y;
         let volumetric = lambda * (j - 1.0);

@@ -16,7 +16,7 @@ use striae_solve::{
 fn metal() -> Material {
     let constants = LameConstants::from_youngs_modulus(100.0, 0.3).unwrap();
     let hardening = Hardening::voce(0.5, 0.8, 6.0, 0.4).unwrap();
-    Material::Plastic(Plastic::new(constants, hardening))
+    Material::plastic(Plastic::new(constants, hardening))
 }
 
 fn viscoelastic() -> Material {
@@ -26,7 +26,7 @@ fn viscoelastic() -> Material {
         ratio: 1.5,
         time: 0.5,
     };
-    Material::Viscoelastic(Viscoelastic::new(slow, &[branch]).unwrap())
+    Material::viscoelastic(Viscoelastic::new(slow, &[branch]).unwrap())
 }
 
 /// The elements whose middle meets a condition, of a material.

@@ -101,7 +101,7 @@ fn pressed(n: usize, c: f64) -> Model {
     press.increments = increments(0.25, 0.05);
     press.displacements = [0, 1, 2].map(held).into();
     press.loads = vec![load];
-    let mut model = model(vec![body("sphere", mesh, Material::Plastic(metal))]);
+    let mut model = model(vec![body("sphere", mesh, Material::plastic(metal))]);
     model.steps = vec![press];
     model
 }

@@ -4,7 +4,7 @@ use super::*;
 
 fn nearly_incompressible(isochoric: Isochoric) -> Material {
     let bulk = 1e7 * isochoric.shear();
-    Material::Hyperelastic(Hyperelastic::new(isochoric, bulk, Volumetric::Quadratic).unwrap())
+    Material::hyperelastic(Hyperelastic::new(isochoric, bulk, Volumetric::Quadratic).unwrap())
 }
 
 #[test]

@@ -21,11 +21,11 @@ fn exponential(dispersion: f64) -> FibreStiffness {
 
 fn rubber() -> Material {
     let isochoric = Isochoric::NeoHookean { shear: SHEAR };
-    Material::Hyperelastic(Hyperelastic::new(isochoric, 30.0, Volumetric::Logarithmic).unwrap())
+    Material::hyperelastic(Hyperelastic::new(isochoric, 30.0, Volumetric::Logarithmic).unwrap())
 }
 
 fn fibrous(ground: Material, families: &[Fibres]) -> Material {
-    Material::Fibrous(Fibrous::new(ground, families).unwrap())
+    Material::fibrous(Fibrous::new(ground, families).unwrap())
 }
 
 fn family(stiffness: FibreStiffness, direction: [f64; 3]) -> Fibres {

@@ -62,7 +62,7 @@ fn slopes(law: &Isochoric, i1: f64) -> (f64, f64) {
                 + 2595.0 * i1.powi(4) / (673_750.0 * l.powi(8));
             (mu * series, 0.0)
         }
-        Isochoric::Ogden(_) => unreachable!("not a law of invariants"),
+        Isochoric::Ogden(_) | Isochoric::Own(_) => unreachable!("not a law of invariants"),
     }
 }
 
@@ -93,7 +93,7 @@ fn uniaxial_equibiaxial_and_planar_stresses_have_their_closed_forms() {
             ];
             for stretches in states {
                 let f = Matrix3::from_diagonal(&stretches.into());
-                let material = Material::Hyperelastic(rubber(law.clone()));
+                let material = Material::hyperelastic(rubber(law.clone()));
                 let sigma = material.cauchy_stress(&f).unwrap();
                 let found = [0, 1].map(|a| sigma[(a, a)] - sigma[(2, 2)]);
                 for (found, expected) in found.iter().zip(closed_form(&law, stretches)) {
@@ -115,7 +115,7 @@ fn simple_shear_has_its_closed_form() {
     let mut f = Matrix3::identity();
     f[(0, 1)] = k;
     for law in laws() {
-        let material = Material::Hyperelastic(rubber(law.clone()));
+        let material = Material::hyperelastic(rubber(law.clone()));
         let sigma = material.cauchy_stress(&f).unwrap();
         let expected = if let Isochoric::Ogden(terms) = &law {
             let l = 0.5 * (k + (k * k + 4.0).sqrt());
@@ -139,7 +139,7 @@ fn pressure_follows_the_volumetric_energy_alone() {
             (Volumetric::Logarithmic, 20.0 * j.ln() / j),
         ] {
             let law = Hyperelastic::new(law.clone(), 20.0, volumetric).unwrap();
-            let sigma = Material::Hyperelastic(law)
+            let sigma = Material::hyperelastic(law)
                 .cauchy_stress(&(Matrix3::identity() * l))
                 .unwrap();
             assert!((sigma - Matrix3::identity() * expected).norm() < 1e-12);
@@ -150,7 +150,7 @@ fn pressure_follows_the_volumetric_energy_alone() {
 #[test]
 fn every_law_passes_the_battery_and_obeys_linear_elasticity_at_rest() {
     for law in laws() {
-        let material = Material::Hyperelastic(rubber(law));
+        let material = Material::hyperelastic(rubber(law));
         assert_eq!(battery(&material), [], "{}", material.name());
         let linear = Material::linear_elastic(material.lame_constants());
         let [found, expected] =
@@ -177,7 +177,7 @@ fn the_shear_modulus_of_the_eight_chain_model_is_that_of_its_source() {
 
 #[test]
 fn ogdens_tangent_is_exact_where_stretches_nearly_coincide() {
-    let material = Material::Hyperelastic(rubber(ogden()));
+    let material = Material::hyperelastic(rubber(ogden()));
     for apart in [0.0, 1e-14, 1e-10, 1e-6, 1e-3] {
         let mut random = Random::new(4);
         let q = *random.rotation().matrix();
@@ -199,7 +199,7 @@ fn gents_law_ends_where_chains_are_straight() {
         shear: 1.0,
         limit: 5.0,
     });
-    let material = Material::Hyperelastic(law);
+    let material = Material::hyperelastic(law);
     let stretched = |l: f64| Matrix3::from_diagonal(&[l, l.powf(-0.5), l.powf(-0.5)].into());
     assert!(material.response(&stretched(2.5)).is_ok());
     let error = material.response(&stretched(3.0)).unwrap_err();
@@ -289,4 +289,62 @@ fn the_battery_finds_a_wrong_stress_a_wrong_tangent_and_a_lost_rotation() {
         matches!(&linear[..], [Violation::NotObjective { .. }]),
         "{linear:?}"
     );
+}
+
+/// The neo-Hookean energy of half a shear modulus, up to a limit.
+#[derive(Debug)]
+struct Ending(f64);
+
+impl IsochoricLaw for Ending {
+    fn name(&self) -> &str {
+        "ending"
+    }
+
+    fn shear(&self) -> f64 {
+        2.0 * self.0
+    }
+
+    fn energy(&self, i1: Invariant, _: Invariant) -> Invariant {
+        (i1 - 3.0) * self.0
+    }
+
+    fn limit(&self) -> Option<f64> {
+        Some(0.5)
+    }
+}
+
+#[test]
+fn an_energy_from_outside_is_that_of_the_crate_with_the_same_formula() {
+    let mut random = Random::new(7);
+    let (own, known) = (
+        rubber(Isochoric::own(Ending(0.3))),
+        rubber(Isochoric::NeoHookean { shear: 0.6 }),
+    );
+    assert_eq!(own.lame_constants(), known.lame_constants());
+    assert_eq!(own, rubber(Isochoric::own(Ending(0.3))));
+    assert_ne!(own, rubber(Isochoric::own(Ending(0.4))));
+    let branch = Branch {
+        ratio: 0.5,
+        time: 1.0,
+    };
+    let relaxing = |law| Material::viscoelastic(Viscoelastic::new(law, &[branch]).unwrap());
+    for [own, known] in [
+        [own.clone(), known.clone()].map(Material::hyperelastic),
+        [own, known].map(relaxing),
+    ] {
+        assert_eq!(battery(&own), []);
+        for _ in 0..20 {
+            let f = random.near_identity(0.1);
+            let [own, known] = [&own, &known].map(|law| law.response(&f).unwrap());
+            assert!((own.energy - known.energy).abs() < 1e-15);
+            assert!((own.first_piola - known.first_piola).norm() < 1e-14);
+            assert!((own.tangent - known.tangent).norm() < 1e-13);
+        }
+        let far = Matrix3::from_diagonal(&[2.0, 0.7, 0.7].into());
+        let refused = own.response(&far);
+        assert!(matches!(
+            refused,
+            Err(ResponseError::Overstretched { limit: 0.5, .. })
+        ));
+    }
 }

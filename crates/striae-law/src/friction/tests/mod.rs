@@ -2,7 +2,6 @@
 
 mod admissibility;
 mod coefficient;
-mod declared;
 mod dependence;
 mod errata;
 mod factor;

@@ -16,7 +16,7 @@ fn hardenings() -> [Hardening; 4] {
 
 fn metal(hardening: Hardening) -> Material {
     let constants = LameConstants::from_youngs_modulus(E, NU).unwrap();
-    Material::Plastic(Plastic::new(constants, hardening))
+    Material::plastic(Plastic::new(constants, hardening))
 }
 
 fn plastic_strain(point: &Point) -> f64 {

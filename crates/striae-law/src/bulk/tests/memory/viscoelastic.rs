@@ -57,7 +57,7 @@ fn slow(isochoric: Isochoric) -> Hyperelastic {
 }
 
 fn viscoelastic(isochoric: Isochoric) -> Material {
-    Material::Viscoelastic(Viscoelastic::new(slow(isochoric), &BRANCHES).unwrap())
+    Material::viscoelastic(Viscoelastic::new(slow(isochoric), &BRANCHES).unwrap())
 }
 
 fn neo_hookean() -> Material {

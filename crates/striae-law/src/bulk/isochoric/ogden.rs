@@ -25,10 +25,61 @@
 //! doi:10.1098/rspa.1972.0026; Ogden, "Non-linear Elastic Deformations" (1984), section
 //! 6.1, for the tangent. Abaqus writes `2 mu_i/alpha_i^2` for `mu_p/alpha_p`.
 
-use super::invariants::inverse;
-use super::{Response, ResponseError, Tangent, Volumetric};
+use super::{InadmissibleHyperelastic, Isochoric, finite};
+use crate::bulk::invariants::inverse;
+use crate::bulk::{Material, RUBBER, Response, ResponseError, Tangent, Volumetric};
+use crate::declared::{ANY, Declared, NO_UNIT, Parameter, Set, Values};
 use nalgebra::{Matrix3, SVector, SymmetricEigen};
 use serde::Serialize;
+
+/// The law.
+pub static OGDEN: Declared<Material> = Declared {
+    name: "ogden",
+    summary: "Rubber with the energy `sum mu/alpha (l1^alpha + l2^alpha + l3^alpha - 3)` of the isochoric stretches, nearly incompressible.",
+    parameters: &[
+        Parameter::tables(
+            "terms",
+            &Set {
+                doc: "A term of Ogden's law. Other programs write `2 mu/alpha^2` where this one writes `mu/alpha`.",
+                parameters: &[
+                    Parameter::number("mu", ANY, "force per area", "Modulus."),
+                    Parameter::number("alpha", ANY, NO_UNIT, "Exponent, not zero."),
+                ],
+            },
+            "Terms; the shear modulus at rest, half the sum of `mu alpha`, must be positive.",
+        ),
+        RUBBER,
+    ],
+    build: |values| {
+        let term = |values: &Values| OgdenTerm {
+            mu: values.number("mu"),
+            alpha: values.number("alpha"),
+        };
+        let terms = values.tables("terms").iter().map(term);
+        Material::rubber(Isochoric::Ogden(terms.collect()), values)
+    },
+    fit: None,
+};
+
+/// Values that state terms.
+pub(super) fn values(terms: &[OgdenTerm]) -> Values {
+    let term = |term: &OgdenTerm| Values::from([("mu", term.mu), ("alpha", term.alpha)]);
+    let terms: Vec<Values> = terms.iter().map(term).collect();
+    Values::default().with("terms", terms)
+}
+
+pub(super) fn check(terms: &[OgdenTerm]) -> Result<(), InadmissibleHyperelastic> {
+    if terms.is_empty() {
+        return Err(InadmissibleHyperelastic::NoTerm);
+    }
+    for (at, term) in terms.iter().enumerate() {
+        finite([("mu", term.mu), ("alpha", term.alpha)])?;
+        if term.alpha == 0.0 {
+            return Err(InadmissibleHyperelastic::NoExponent(at));
+        }
+    }
+    Ok(())
+}
 
 /// A term of Ogden's law.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -56,7 +107,7 @@ struct Principal {
 }
 
 #[allow(non_snake_case)]
-pub(super) fn response(
+pub(in crate::bulk) fn response(
     terms: &[OgdenTerm],
     volumetric: Volumetric,
     bulk: f64,

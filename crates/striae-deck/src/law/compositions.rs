@@ -1,0 +1,103 @@
+//! Keys of the parameters of laws, for the reader, the schema and the reference.
+
+use striae_law::{
+    Laws,
+    declared::{self, Declared, Kind, Parameter, Set},
+};
+
+use super::Named;
+use crate::{
+    form::{Alternative, Form, Key, Need},
+    read::combined,
+};
+
+/// Returns the compositions of each law, with the key of its name first.
+pub(super) fn of_each<L: Named>(laws: &Laws) -> Vec<Alternative> {
+    let composed = |law: &&'static Declared<L>| {
+        let name = tag::<L>(Form::Words(vec![(law.name, "")]));
+        let mut all = of_law(law);
+        all.iter_mut()
+            .for_each(|one| one.keys.insert(0, name.clone()));
+        all
+    };
+    L::declared(laws).iter().flat_map(composed).collect()
+}
+
+/// Returns the compositions of a law, with its description.
+pub(super) fn of_law<L: Kind>(law: &Declared<L>) -> Vec<Alternative> {
+    let described = |mut one: Alternative| {
+        one.doc = spaced(law.summary, &one.doc);
+        one
+    };
+    compositions(law.parameters)
+        .into_iter()
+        .map(described)
+        .collect()
+}
+
+pub(super) fn tag<L: Named>(form: Form) -> Key {
+    Key {
+        name: L::TAG,
+        doc: L::DOC.to_owned(),
+        need: Need::Required,
+        form,
+    }
+}
+
+/// Returns the compositions of the keys of parameters, with the descriptions of the sets in them.
+pub(super) fn compositions(parameters: &[Parameter]) -> Vec<Alternative> {
+    let none = vec![Alternative::new(&[])];
+    parameters.iter().fold(none, |all, parameter| {
+        combined(&all, &of_parameter(parameter))
+    })
+}
+
+fn of_parameter(parameter: &Parameter) -> Vec<Alternative> {
+    if let declared::Form::OneOf(sets) = parameter.form {
+        return sets.iter().flat_map(of_set).collect();
+    }
+    let need = match parameter.is_required() {
+        true => Need::Required,
+        false => Need::Optional,
+    };
+    let key = Key {
+        name: parameter.name,
+        doc: parameter.told(),
+        need,
+        form: form(parameter.form),
+    };
+    vec![Alternative {
+        doc: String::new(),
+        keys: vec![key],
+    }]
+}
+
+/// Returns the compositions of a set.
+pub(super) fn of_set(set: &Set) -> Vec<Alternative> {
+    let described = |mut one: Alternative| {
+        one.doc = spaced(set.doc, &one.doc);
+        one
+    };
+    compositions(set.parameters)
+        .into_iter()
+        .map(described)
+        .collect()
+}
+
+fn spaced(one: &str, other: &str) -> String {
+    format!("{one} {other}").trim().to_owned()
+}
+
+/// Returns the form of a value in decks.
+pub(super) fn form(of: declared::Form) -> Form {
+    let list = |of| Form::List(Box::new(of), None);
+    match of {
+        declared::Form::Number(bounds) => Form::Number(bounds),
+        declared::Form::Numbers(bounds) => list(Form::Number(bounds)),
+        declared::Form::Word(words) => Form::Words(words.to_vec()),
+        declared::Form::Pairs => list(Form::List(Box::new(Form::Number(declared::ANY)), Some(2))),
+        declared::Form::Table(set) => Form::Table(of_set(set)),
+        declared::Form::Tables(set) => list(Form::Table(of_set(set))),
+        declared::Form::OneOf(sets) => Form::Table(sets.iter().flat_map(of_set).collect()),
+    }
+}
