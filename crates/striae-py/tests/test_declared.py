@@ -43,9 +43,9 @@ def test_sets_exclude_each_other() -> None:
     with pytest.raises(st.ModelError, match="`bulk_modulus` and `poissons_ratio` exclude each other"):
         st.Gent(1e5, 30.0, bulk_modulus=1e7, poissons_ratio=0.4)
     with pytest.raises(TypeError):
-        st.Gent(1e5, 30.0, 1e7)  # type: ignore[misc]
+        st.Gent(1e5, 30.0, 1e7)  # type: ignore[call-arg]
     with pytest.raises(TypeError, match="the key `lambda` of decks is youngs_modulus"):
-        st.NeoHookean(**{"lambda": 1.0})  # type: ignore[call-arg]
+        st.NeoHookean(**{"lambda": 1.0})  # type: ignore[arg-type]
     with pytest.raises(TypeError, match="terms: a list is needed, not float"):
         st.Ogden(2.0, bulk_modulus=1e7)  # type: ignore[arg-type]
     with pytest.raises(st.ModelError, match="Ogden: the law has no term"):

@@ -53,8 +53,9 @@ class Material(Made):
         self.youngs_modulus, self.poissons_ratio = self._native.constants()
         # Moduli that were given come back with round-off.
         self.__dict__.update((name, value) for name, value in given if name in MODULI)
-        defaults = inspect.signature(type(self)).parameters
-        told = [(name, value) for name, value in given if value != defaults[name].default]
+        arguments = inspect.signature(type(self)).parameters
+        defaults = {name: argument.default for name, argument in arguments.items()}
+        told = [(name, value) for name, value in given if value != defaults.get(name)]
         self._told = ", ".join(f"{name}={value!r}" for name, value in told)
 
     def __repr__(self) -> str:
