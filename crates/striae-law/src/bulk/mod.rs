@@ -47,7 +47,7 @@ pub use battery::{Violation, battery};
 pub use compact::CompactTangent;
 pub use direction::{Direction, LinesAbout};
 pub use fibrous::{FibreStiffness, Fibres, Fibrous, InadmissibleFibres};
-pub use hardening::{Hardening, HardeningForm, InadmissibleHardening};
+pub use hardening::{HARDENING, Hardening, HardeningForm, InadmissibleHardening};
 pub use history::{Field, Past, Present};
 pub use hyperelastic::Hyperelastic;
 pub use inadmissible::Inadmissible;
@@ -61,7 +61,7 @@ pub use plastic::Plastic;
 pub use rubber::RUBBER;
 use serde::Serialize;
 pub use viscoelastic::{Branch, InadmissibleBranch, Viscoelastic};
-pub use volumetric::Volumetric;
+pub use volumetric::{VOLUMETRIC, Volumetric};
 
 use crate::declared::{Declared, Kind, Statement, Values};
 use nalgebra::{Matrix3, SMatrix, Vector3};
