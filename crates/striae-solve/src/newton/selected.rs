@@ -111,9 +111,15 @@ pub(super) fn reselected(setting: &Setting, trial: &Trial, contacts: &[Evaluatio
         .enumerate()
         .map(|(pair, (start, latest))| {
             let had = &setting.selections[pair];
-            let tractions = trial.tractions[pair].clone();
+            let mut tractions = trial.tractions[pair].clone();
             if had.left_out(&start, &latest).is_empty() {
-                return (had.clone(), tractions);
+                // Directions of friction depend on the fields of all pairs.
+                let slip_freedoms = Vec::new();
+                let selection = Selection {
+                    slip_freedoms,
+                    ..had.clone()
+                };
+                return (selection, tractions);
             }
             let kept = had.kept_nodes();
             let prescribed = &setting.context.fixed_on_pair[pair];
@@ -125,7 +131,6 @@ pub(super) fn reselected(setting: &Setting, trial: &Trial, contacts: &[Evaluatio
                 worn: had.worn.clone(),
                 ..Selection::new(&start, Some(&latest), &kept, prescribed)
             };
-            let mut tractions = tractions;
             fit(&selection, &kept, &contacts[pair].carried, &mut tractions);
             (selection, tractions)
         })
