@@ -82,6 +82,24 @@ fn sections_have_their_elements_materials_and_formulations() {
 }
 
 #[test]
+fn sections_have_the_formulation_that_their_body_states() {
+    let deck = read(
+        r#"material = "steel"
+        formulation = "assumed-strain"
+        sections = [{ elements = "left", material = "gum" },
+                    { elements = "middle", material = "gum", formulation = "standard" }]"#,
+        "",
+    );
+    let deck = deck.unwrap_or_else(|faults| panic!("{faults}"));
+    let sections = deck.model.bodies[0].sections.iter();
+    let formulations: Vec<Formulation> = sections.map(|section| section.formulation).collect();
+    assert_eq!(
+        formulations,
+        [Formulation::AssumedStrain, Formulation::Standard]
+    );
+}
+
+#[test]
 fn a_body_all_in_sections_needs_no_material_of_its_own() {
     let sections = r#"sections = [{ elements = "left", material = "gum" },
                                   { elements = "rest", material = "steel" }]"#;

@@ -206,10 +206,11 @@ fn lower_body(
         Asked::MeanDilatation => Formulation::MeanDilatation,
         Asked::AssumedStrain => Formulation::AssumedStrain,
     });
+    let stated = formulation(&raw.formulation).or(asked);
     let sections = mesh.as_ref().map_or_else(Vec::new, |mesh| {
         let sections = sections::Sections {
             materials,
-            asked,
+            stated,
             mesh,
             body: &name,
             cards,
@@ -224,7 +225,7 @@ fn lower_body(
         notes,
         material,
         density,
-        formulation: formulation(&raw.formulation).or(asked),
+        formulation: stated,
         contact_mass: match raw.contact_mass.as_ref().map(|mass| mass.value) {
             None | Some(raw::ContactMass::Consistent) => ContactMass::Consistent,
             Some(raw::ContactMass::Redistributed) => ContactMass::Redistributed,

@@ -9,8 +9,8 @@ use striae_solve::model::{BodySection, Formulation};
 /// Parts that the sections of a body refer to.
 pub(super) struct Sections<'a> {
     pub(super) materials: &'a Materials,
-    /// Formulation requested by the elements of its mesh file.
-    pub(super) asked: Option<Formulation>,
+    /// Formulation requested for the whole body, by the deck or the elements of its mesh file.
+    pub(super) stated: Option<Formulation>,
     pub(super) mesh: &'a Mesh,
     pub(super) body: &'a str,
     /// Materials stated by the mesh file, if the deck requests them.
@@ -44,8 +44,7 @@ impl Sections<'_> {
         let Some(cards) = &self.cards else {
             return Some(Vec::new());
         };
-        let stated = formulation(&raw.formulation).or(self.asked);
-        let found = cards.sections(self.mesh, stated);
+        let found = cards.sections(self.mesh, self.stated);
         let fault = |cause: String| {
             let span = raw.mesh.as_ref().map_or(0..0, |mesh| mesh.span.clone());
             let body = self.body.to_owned();
@@ -62,7 +61,7 @@ impl Sections<'_> {
         let (material, density) = found?;
         let material = material?;
         let suited = Formulation::suited_to(&material);
-        let stated = formulation(&raw.formulation).or(self.asked);
+        let stated = formulation(&raw.formulation).or(self.stated);
         Some(BodySection {
             set: set.value.0.clone(),
             elements,

@@ -21,10 +21,10 @@ table! {
         required mesh: Mesh,
         /// Parts of other materials.
         optional sections: Vec<At<BodySection>>,
-        /// Formulation of its elements outside of sections. Default: the one that elements of
-        /// Abaqus with an `H` (`mean-dilatation`) or `I` (`assumed-strain`) request,
-        /// `mean-dilatation` if Poisson's ratio is above 0.45 or the material yields, else
-        /// `standard`.
+        /// Formulation of its elements, except in sections with one of their own. Default: the one
+        /// that elements of Abaqus with an `H` (`mean-dilatation`) or `I` (`assumed-strain`)
+        /// request, `mean-dilatation` if Poisson's ratio is above 0.45 or the material yields,
+        /// else `standard`.
         optional formulation: Formulation,
         /// Mass of the nodes of its contact surfaces in dynamic steps. Default: `consistent`.
         optional contact_mass: ContactMass,
@@ -44,8 +44,9 @@ table! {
         required elements: Text,
         /// Name of their material.
         required material: Text,
-        /// Formulation of these elements. Default: the one that elements of Abaqus with an `H` or
-        /// `I` request, else the one that suits their material, as for bodies.
+        /// Formulation of these elements. Default: that of the body if it states one, else the one
+        /// that elements of Abaqus with an `H` or `I` request, else the one that suits their
+        /// material, as for bodies.
         optional formulation: Formulation,
     }
 }

@@ -18,6 +18,8 @@ use crate::{
 pub struct BodyBuilder {
     body: Body,
     own_material: Own,
+    /// Formulation requested for the whole body.
+    stated: Option<Formulation>,
     sections: Vec<SectionBuilder>,
 }
 
@@ -46,6 +48,7 @@ pub fn body(name: impl Into<String>, mut mesh: Mesh, material: Material) -> Body
     BodyBuilder {
         body,
         own_material: Own::Given,
+        stated: None,
         sections: Vec::new(),
     }
 }
@@ -61,10 +64,13 @@ pub fn composite(name: impl Into<String>, mesh: Mesh, first: SectionBuilder) -> 
 #[derive(Clone, Debug)]
 pub struct SectionBuilder {
     section: BodySection,
+    /// Formulation requested for these elements.
+    stated: Option<Formulation>,
 }
 
 /// The elements of a set of the mesh of a body, of a material of their own, without
-/// density; of the formulation that [suits](Formulation::suited_to) it.
+/// density; of the formulation requested for the body, or else the one that
+/// [suits](Formulation::suited_to) the material.
 pub fn section(elements: impl Into<String>, material: Material) -> SectionBuilder {
     let section = BodySection {
         set: elements.into(),
@@ -73,7 +79,10 @@ pub fn section(elements: impl Into<String>, material: Material) -> SectionBuilde
         material,
         density: 0.0,
     };
-    SectionBuilder { section }
+    SectionBuilder {
+        section,
+        stated: None,
+    }
 }
 
 impl SectionBuilder {
@@ -85,7 +94,7 @@ impl SectionBuilder {
 
     /// Sets the formulation of its elements.
     pub fn formulation(mut self, formulation: Formulation) -> Self {
-        self.section.formulation = formulation;
+        self.stated = Some(formulation);
         self
     }
 }
@@ -97,9 +106,10 @@ impl BodyBuilder {
         self
     }
 
-    /// Sets the formulation of its elements.
+    /// Sets the formulation of its elements, except in sections with one of their own.
     pub fn formulation(mut self, formulation: Formulation) -> Self {
         self.body.formulation = formulation;
+        self.stated = Some(formulation);
         self
     }
 
@@ -208,6 +218,9 @@ impl BodyBuilder {
             let sets = &body.mesh.element_sets;
             match FaultKind::members("element", sets, &body.name, &builder.section.set) {
                 Ok(elements) => {
+                    if let Some(formulation) = builder.stated.or(self.stated) {
+                        builder.section.formulation = formulation;
+                    }
                     builder.section.elements = elements.to_vec();
                     body.sections.push(builder.section);
                 }

@@ -212,10 +212,10 @@ class Body(Strict):
         density: mass per volume at rest, for inertia and gravity.
         contact_mass: mass of the nodes of contact surfaces in dynamic steps: ``consistent``,
             or ``redistributed`` to the nodes behind, against oscillations of contact.
-        formulation: of its elements outside of sections, ``standard``, ``mean-dilatation``, which
-            avoids volumetric locking, or ``assumed-strain``, which avoids shear locking of
-            hexahedra in bending; by default ``mean-dilatation`` if Poisson's ratio at rest is above
-            0.45, else ``standard``.
+        formulation: of its elements, except in sections with one of their own: ``standard``,
+            ``mean-dilatation``, which avoids volumetric locking, or ``assumed-strain``, which
+            avoids shear locking of hexahedra in bending; by default ``mean-dilatation`` if Poisson's
+            ratio at rest is above 0.45, else ``standard``.
         """
         self.name = check.name(name, "name")
         self.mesh = Mesh.of(mesh)

@@ -29,8 +29,8 @@ class Section(Strict):
         elements: name of an element set of the mesh; no element is in two sections.
         material: bulk material.
         density: mass per volume at rest, for inertia and gravity.
-        formulation: of its elements, as of :class:`Body`; by default the one that suits the
-            material.
+        formulation: of its elements, as of :class:`Body`; by default that of the body if it has
+            one, else the one that suits the material.
         """
         self.elements = check.name(elements, "elements")
         """Name of the element set."""
