@@ -126,6 +126,26 @@ impl Selection {
         self.slip_freedoms.get(k).copied().unwrap_or_default()
     }
 
+    /// Takes over the kinds of the directions of friction, and the senses of lines, from the field
+    /// of a model that differs by a small change and has the same kept nodes.
+    pub fn take_freedoms_like(&mut self, other: &Self) {
+        let places = |of: &Self| {
+            of.kept()
+                .iter()
+                .map(|kept| kept.place())
+                .collect::<Vec<_>>()
+        };
+        if places(self) != places(other) {
+            return;
+        }
+        self.slip_freedoms = match other.slip_freedoms.is_empty() {
+            true => Vec::new(),
+            false => (0..self.kept().len())
+                .map(|k| self.slip_freedom(k).like(other.slip_freedom(k)))
+                .collect(),
+        };
+    }
+
     /// Weakly independent kept nodes.
     pub fn ramp(&self) -> &[Weak] {
         &self.basis.ramp

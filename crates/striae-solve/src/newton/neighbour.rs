@@ -9,8 +9,8 @@
 //! ```
 //!
 //! The error of `d` is of the order `h^3`, as even powers of `h` cancel, and so does what Newton's
-//! method left of the residual at `x`. No neighbour iterates: it takes kept nodes and branches of
-//! the laws from the increment. The error that is left is measured by what another such correction
+//! method left of the residual at `x`. No neighbour iterates: it takes kept nodes, kinds of directions
+//! of friction and branches of the laws from the increment. The error that is left is measured by what another such correction
 //! would change, and taken away by it where it is not small.
 
 use striae_contact::{complementarity::Iteration, segment::Derivatives, selection::Selection};
@@ -94,6 +94,9 @@ impl<'a> Neighbour<'a> {
         if base.increment.has_reselected {
             let place = (context, before, &imposed);
             selections = iterated(place, base.fraction, time, course, workspace)?;
+        }
+        for (selection, of_base) in selections.iter_mut().zip(&base.increment.selections) {
+            selection.take_freedoms_like(of_base);
         }
         for (tractions, after) in tractions.iter_mut().zip(after) {
             tractions.nodes.clone_from(&after.tractions.nodes);

@@ -19,6 +19,8 @@ const DOME: &str = include_str!("dome.toml");
 const BILLET: &str = include_str!("billet.toml");
 /// Blocks in dynamics, the upper one tied to a rigid plate that is free in one direction.
 const DYNAMIC: &str = include_str!("../../src/simulation/tests/dynamic.toml");
+/// A slice of a pad between planes of symmetry, part of which sticks and part slips.
+const SLICE: &str = include_str!("slice.toml");
 /// A bar on a floor that it just touches at the end of the step.
 const BAR: &str = include_str!("bar.toml");
 
@@ -135,6 +137,24 @@ fn by_the_target_of_a_displacement() {
 #[test]
 fn by_the_height_of_a_body() {
     compare(DOME, "height", 1.0);
+}
+
+#[test]
+fn of_a_slice_whose_friction_has_one_direction() {
+    compare(SLICE, "width", 1.0);
+    compare(SLICE, "pair.foot.friction.mu", 0.4);
+    compare(SLICE, "material.rubber.youngs_modulus", 1e6);
+}
+
+#[test]
+fn pressure_of_a_slice_that_sticks_depends_on_no_width() {
+    let pressed = SLICE.split("[[step]]\nname = \"drag\"").next().unwrap();
+    let pressed = pressed.replace("[3, 1, 2]", "[1, 1, 1]");
+    let finished = differentiated(&pressed.replace("mu = 0.4", "mu = 3"), "width", 1.0);
+    let history = &finished.sensitivities[0].history;
+    let by_width = history.column("pair.foot.max_pressure").unwrap();
+    // Strains are uniform, whatever the width.
+    assert!(by_width.iter().all(|by| by.abs() < 1e-3), "{by_width:?}");
 }
 
 #[test]
