@@ -5,6 +5,8 @@ A cap is pressed onto a rigid plane; the force converges as elements shrink. Uni
 
 import numpy as np
 import striae as st
+from matplotlib import pyplot
+from picture import save
 
 
 def model_of(element_size: float) -> st.Model:
@@ -25,3 +27,9 @@ for size, force in zip(sizes, forces):
 changes = np.abs(np.diff(forces)) / forces[-1]
 print(f"changes {changes}")
 assert changes[-1] < 0.05
+
+figure, axes = pyplot.subplots(figsize=(5.5, 3.8), layout="constrained")
+axes.plot(sizes, forces, "o-")
+axes.set(xlabel="element size at the apex (mm)", ylabel="contact force (N)", xlim=(0.0, None))
+axes.grid(alpha=0.3)
+save(figure, "convergence")

@@ -7,6 +7,7 @@ Units: m, N, Pa.
 
 import numpy as np
 import striae as st
+from picture import save
 
 ANGLE = np.radians(40)
 rubber = st.NeoHookean(youngs_modulus=1e6, poissons_ratio=0.4)
@@ -25,4 +26,4 @@ drift = end.body("pad").displacement[end.pair("sole").nodes, 1].mean()
 print(f"friction along the drag {along / normal:.3f}, across it {across / normal:.3f}")
 print(f"the sole has drifted by {1e6 * drift:.1f} micrometres")
 assert abs(across) > 0.01 * abs(along) and np.sign(drift) == np.sign(across)
-run.plot().savefig("grooved_sole.png", dpi=110)
+save(run.plot(), "grooved_sole")

@@ -2,6 +2,8 @@
 
 import numpy as np
 import striae as st
+from matplotlib import pyplot
+from picture import save
 
 COLUMN = "pair.sole.resultant_a.x"
 
@@ -19,6 +21,7 @@ def drag(mu: float, modulus: float) -> st.Model:
 # Measurements, here of a pad whose constants are known, with noise of one per cent.
 noise = np.random.default_rng(1).normal(size=10)
 measured = drag(mu=0.6, modulus=1.8e6).run().history[COLUMN] * (1 + 0.01 * noise)
+way = np.concatenate([[0.0, 0.0], np.linspace(0.5, 4.0, 8)])
 
 
 def linearised(constants: dict[str, float]) -> tuple[np.ndarray, np.ndarray]:
@@ -29,8 +32,11 @@ def linearised(constants: dict[str, float]) -> tuple[np.ndarray, np.ndarray]:
 
 
 constants = {"mu": 0.4, "modulus": 1e6}
+figure, axes = pyplot.subplots(figsize=(5.5, 3.8), layout="constrained")
 for iteration in range(6):
     rest, jacobian = linearised(constants)
+    if iteration in (0, 1, 5):
+        axes.plot(way, rest - measured, color=f"C{iteration % 3}", label=f"run {iteration + 1}")
     print(iteration, constants, f"root mean square {np.sqrt(np.mean(rest**2)):.3f} N")
     change, *_ = np.linalg.lstsq(jacobian, rest, rcond=None)
     constants = {name: value * (1 + part) for (name, value), part in zip(constants.items(), change)}
@@ -42,3 +48,9 @@ deviation = np.sqrt(variance * np.diag(np.linalg.inv(jacobian.T @ jacobian)))
 for (name, value), relative in zip(constants.items(), deviation):
     print(f"{name} = {value:.4g} +- {100 * relative:.1f} %")
 assert abs(constants["mu"] / 0.6 - 1) < 0.02 and abs(constants["modulus"] / 1.8e6 - 1) < 0.02
+
+axes.plot(way, -measured, "o", color="0.3", label="measured")
+axes.set(xlabel="way (mm)", ylabel="force of the drag (N)")
+axes.legend()
+axes.grid(alpha=0.3)
+save(figure, "identification")

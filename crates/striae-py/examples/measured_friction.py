@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import striae as st
 from matplotlib import pyplot
+from picture import save
 
 BOOK = Path(__file__).parents[3] / "docs" / "book" / "how-to" / "measurements"
 
@@ -42,6 +43,6 @@ right.set(ylim=(0.0, None), xlabel="direction of slip (degrees)")
 right.set_title("claw tufts of a spider on glass (Wolff and Gorb 2013)", fontsize="small")
 right.legend(fontsize="small")
 right.grid(alpha=0.3)
-figure.savefig("measured_friction.png", dpi=110)
+save(figure, "measured_friction")
 forward, backward, lateral = snake.constants.values()
 assert lateral > backward > forward

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import striae as st
+from picture import save
 
 HERE = Path(__file__).parent
 
@@ -20,7 +21,7 @@ run = model.run(on_increment=lambda i: print(i.time, i.pairs[0].force))
 print(run.history.to_pandas().tail())
 stress, traction = run[-1].body("pad").stress, run[-1].pair(0).traction
 print(stress.shape, traction.shape)
-run.plot().savefig("pad.png", dpi=110)
+save(run.plot(), "pad")
 run.report("pad.html")
 
 # Constants of a law from measurements, here made by a law that is known.

@@ -6,6 +6,7 @@ friction backward is larger: per cycle the ground gives it a push. Units: m, N, 
 
 import numpy as np
 import striae as st
+from picture import save
 
 skin = st.NeoHookean(youngs_modulus=2e5, poissons_ratio=0.45)
 belly = st.Body("belly", st.block((0.03, 0.02, 0.01), (6, 4, 2)), skin)
@@ -25,4 +26,4 @@ ratios = {step: abs(force[0] / force[2]) for step, force in forces.items() if st
 print({step: round(float(ratio), 3) for step, ratio in ratios.items()})
 assert np.isclose(ratios["forward"], 0.15, atol=2e-3)
 assert np.isclose(ratios["backward"], 0.35, atol=2e-3)
-run.plot().savefig("snake_scale.png", dpi=110)
+save(run.plot(), "snake_scale")
