@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Optional
 
@@ -134,7 +135,8 @@ def draw_friction(friction: Friction, axes: Optional[Axes], theta: float) -> Axe
     on.set_xlabel("across the texture (a)")
     on.set_ylabel("along the texture (-s)")
     at = f"\ntextures at {theta:g} degrees" if friction._native.of_two_textures else ""
-    on.set_title(repr(friction) + at, fontsize="small")
+    # Long laws take several lines: titles do not shrink with their axes.
+    on.set_title(textwrap.fill(repr(friction), 44) + at, fontsize="small")
     on.legend(loc="upper right", fontsize="small")
     return on
 
