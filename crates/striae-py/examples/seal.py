@@ -7,7 +7,8 @@ the height of the seal and its half width at the crown are sought.
 
 The function is smooth where the whole crown slides at once, in the only increment with friction,
 and the pressure is taken before it: while the seal slides, the largest pressure may jump from the
-crown to its heel. That is why slimmer seals are excluded, too. Units: m, N, Pa, in profiles mm.
+crown to its heel. That is why slimmer seals are excluded, too. No node sticks: where nodes do that
+are held along the surface, as those of a plane slice are, derivatives cannot be relied on. Units: m, N, Pa, in profiles mm.
 With ``--compare`` a search without derivatives does the same.
 """
 
