@@ -60,7 +60,7 @@ Known = dict[tuple[float, ...], tuple[np.ndarray, np.ndarray]]
 
 
 def results(x: np.ndarray, known: Known, derive: bool = True) -> tuple[np.ndarray, np.ndarray]:
-    """What is sought at parameters, with its derivatives; runs are known by their parameters, as
+    """Results at parameters, with their derivatives; runs are known by their parameters, as
     the function and its limits are asked for one after the other."""
     key = tuple(float(one) for one in x)
     if key not in known:
