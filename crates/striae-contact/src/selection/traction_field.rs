@@ -127,16 +127,11 @@ impl Selection {
     }
 
     /// Takes over the kinds of the directions of friction, and the senses of lines, from the field
-    /// of a model that differs by a small change and has the same kept nodes.
-    pub fn take_freedoms_like(&mut self, other: &Self) {
-        let places = |of: &Self| {
-            of.kept()
-                .iter()
-                .map(|kept| kept.place())
-                .collect::<Vec<_>>()
-        };
-        if places(self) != places(other) {
-            return;
+    /// of a model that differs by a small change; returns `false` if that has other kept nodes.
+    #[must_use]
+    pub fn take_freedoms_like(&mut self, other: &Self) -> bool {
+        if self.basis.kept != other.basis.kept {
+            return false;
         }
         self.slip_freedoms = match other.slip_freedoms.is_empty() {
             true => Vec::new(),
@@ -144,6 +139,7 @@ impl Selection {
                 .map(|k| self.slip_freedom(k).like(other.slip_freedom(k)))
                 .collect(),
         };
+        true
     }
 
     /// Weakly independent kept nodes.

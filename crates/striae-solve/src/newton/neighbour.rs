@@ -38,6 +38,8 @@ const EXACT: f64 = 1e-12;
 const NOTHING: f64 = 1e-7;
 /// Part of positions and tractions below which a correction is round-off.
 const ROUND_OFF: f64 = 1e-11;
+/// Remainder where a neighbour keeps other nodes than the increment, so that nothing is known of it.
+const UNLIKE: f64 = 1.0;
 /// Most corrections of an increment.
 const CORRECTIONS: usize = 4;
 
@@ -60,6 +62,8 @@ pub(crate) struct Neighbour<'a> {
     time: f64,
     imposed: Imposed,
     selections: Vec<Selection>,
+    /// `true` if it keeps the nodes of the increment, whose tangent is then its own.
+    is_like: bool,
     trial: Trial,
 }
 
@@ -95,8 +99,9 @@ impl<'a> Neighbour<'a> {
             let place = (context, before, &imposed);
             selections = iterated(place, base.fraction, time, course, workspace)?;
         }
+        let mut is_like = true;
         for (selection, of_base) in selections.iter_mut().zip(&base.increment.selections) {
-            selection.take_freedoms_like(of_base);
+            is_like &= selection.take_freedoms_like(of_base);
         }
         for (tractions, after) in tractions.iter_mut().zip(after) {
             tractions.nodes.clone_from(&after.tractions.nodes);
@@ -116,6 +121,7 @@ impl<'a> Neighbour<'a> {
             time,
             imposed,
             selections,
+            is_like,
             trial,
         })
     }
@@ -238,6 +244,9 @@ pub(crate) fn moved(
         }
         assembled = [two[0].assembled(workspace)?, two[1].assembled(workspace)?];
     }
+    if two.iter().any(|neighbour| !neighbour.is_like) {
+        remainder = remainder.max(UNLIKE);
+    }
     let mut states = two
         .into_iter()
         .zip(assembled)
@@ -249,6 +258,7 @@ pub(crate) fn moved(
                 imposed,
                 selections,
                 trial,
+                ..
             } = neighbour;
             accepted(
                 context,
