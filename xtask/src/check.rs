@@ -68,6 +68,8 @@ const PACKAGES: Stage = Stage {
         "--package",
         "striae-verify",
         "--package",
+        "striae-declared",
+        "--package",
         "striae-mesh",
         "--package",
         "striae-law",

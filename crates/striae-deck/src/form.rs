@@ -1,7 +1,7 @@
 //! Forms of the values a deck may contain: what the reader accepts, what it
 //! says it expects, what the JSON schema and the reference list.
 
-use striae_law::declared::Bound;
+use striae_declared::Bound;
 
 /// The form of a value.
 #[derive(Clone, Debug, PartialEq)]

@@ -6,10 +6,10 @@
 mod compositions;
 mod reading;
 
+use striae_declared::{Declared, Kind};
 use striae_law::{
     Laws,
     bulk::Material,
-    declared::{Declared, Kind},
     friction::{
         BY_PRESSURE, BY_RATE, BY_SLIP, BY_STATE, DECAY, Friction, PressureDependence,
         RateDependence, SlipDependence, StateDependence,

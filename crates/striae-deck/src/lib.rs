@@ -135,7 +135,8 @@ pub fn friction(text: &str, file: &str) -> Result<Friction, Faults> {
 /// ```
 /// use std::path::Path;
 /// use striae_deck::Reader;
-/// use striae_law::{Laws, declared::{Declared, POSITIVE, Parameter}, friction::Friction};
+/// use striae_declared::{Declared, POSITIVE, Parameter};
+/// use striae_law::{Laws, friction::Friction};
 ///
 /// static SLIPPERY: Declared<Friction> = Declared {
 ///     name: "slippery",

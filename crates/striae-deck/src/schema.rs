@@ -6,7 +6,8 @@ use super::{
     read::{Part, Read},
 };
 use serde_json::{Map, Value, json};
-use striae_law::{Laws, declared::Bound};
+use striae_declared::Bound;
+use striae_law::Laws;
 
 /// Texts that are expressions.
 const EXPRESSION: &str = r"^\s*=";

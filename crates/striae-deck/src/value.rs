@@ -8,7 +8,7 @@ use super::{
     read::{At, Place, Read, TableReader, Value, described, read_table_as, unexpected},
 };
 use std::slice;
-use striae_law::declared::Bound;
+use striae_declared::Bound;
 use striae_mesh::Vec3;
 use striae_model::nearest;
 use toml::de::DeValue;

@@ -1,13 +1,14 @@
 //! Laws that can be called by their names.
 
 use crate::bulk::{self, Material};
-use crate::declared::Declared;
 use crate::friction::{self, Friction};
+use striae_declared::Declared;
 
 /// Laws that a deck may name: those of this crate, and others that are added.
 ///
 /// ```
-/// use striae_law::{Laws, declared::{Declared, POSITIVE, Parameter}, friction::Friction};
+/// use striae_declared::{Declared, POSITIVE, Parameter};
+/// use striae_law::{Laws, friction::Friction};
 ///
 /// static SLIPPERY: Declared<Friction> = Declared {
 ///     name: "slippery",

@@ -4,9 +4,10 @@
 //! formula and source. [`fit`] finds the constants of friction laws from measurements.
 
 pub mod bulk;
-pub mod declared;
 pub mod fit;
 pub mod friction;
 mod laws;
+#[cfg(test)]
+mod tests;
 
 pub use laws::Laws;

@@ -2,9 +2,9 @@
 //! which `declared.py` writes.
 
 use pyo3::prelude::*;
+use striae::declared::{self, Absent, Bound, Declared, Form, Kind, Set, Value, Values, named};
 use striae::law::{
     bulk,
-    declared::{self, Absent, Bound, Declared, Form, Kind, Set, Value, Values, named},
     friction::{BY_PRESSURE, BY_RATE, BY_SLIP, BY_STATE, DECAY, LAWS},
 };
 

@@ -3,10 +3,8 @@
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use striae::{
-    law::{
-        declared,
-        fit::{Reading, Sought, Standing, fit},
-    },
+    declared,
+    law::fit::{Reading, Sought, Standing, fit},
     measurements::{self, AngleFrom, Form, NamedColumn},
 };
 

@@ -2,12 +2,10 @@
 
 use numpy::PyArray1;
 use pyo3::prelude::*;
-use striae::law::{
-    declared::Kind,
-    friction::{
-        self, BY_PRESSURE, BY_RATE, BY_SLIP, BY_STATE, DECAY, FactorRange, FrictionError, LAWS,
-        OwnFactor, RequiredTextures,
-    },
+use striae::declared::Kind;
+use striae::law::friction::{
+    self, BY_PRESSURE, BY_RATE, BY_SLIP, BY_STATE, DECAY, FactorRange, FrictionError, LAWS,
+    OwnFactor, RequiredTextures,
 };
 
 use crate::{

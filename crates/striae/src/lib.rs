@@ -219,6 +219,7 @@ pub use results::{PairSide, Results};
 pub use simulation::{Finished, Simulation, case_name, read_again};
 pub use striae_contact as contact;
 pub use striae_deck as deck;
+pub use striae_declared as declared;
 pub use striae_element as element;
 pub use striae_law as law;
 pub use striae_mesh as mesh;

@@ -19,13 +19,18 @@ const VERIFICATION: &str = "striae-verify";
 
 const LADDER: &[Row] = &[
     Row {
-        name: "striae-mesh",
+        name: "striae-declared",
         own: &[],
+        outside: &["thiserror"],
+    },
+    Row {
+        name: "striae-mesh",
+        own: &["striae-declared"],
         outside: &["nalgebra", "serde", "thiserror"],
     },
     Row {
         name: "striae-law",
-        own: &["striae-verify"],
+        own: &["striae-declared", "striae-verify"],
         outside: &["nalgebra", "num-dual", "serde", "thiserror"],
     },
     Row {
@@ -147,6 +152,7 @@ const LADDER: &[Row] = &[
     Row {
         name: "striae-deck",
         own: &[
+            "striae-declared",
             "striae-files",
             "striae-law",
             "striae-mesh",
@@ -163,6 +169,7 @@ const LADDER: &[Row] = &[
         own: &[
             "striae-contact",
             "striae-deck",
+            "striae-declared",
             "striae-element",
             "striae-figure",
             "striae-files",
@@ -200,6 +207,7 @@ const LADDER: &[Row] = &[
             "striae-cases",
             "striae-contact",
             "striae-deck",
+            "striae-declared",
             "striae-figure",
             "striae-files",
             "striae-law",

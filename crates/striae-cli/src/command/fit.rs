@@ -15,8 +15,8 @@ use striae::{
     figures,
     measurements::{self, AngleFrom, Form, Measured, MeasurementFaults, NamedColumn},
 };
+use striae_declared::{self as declared, Absent, Kind};
 use striae_law::{
-    declared::{self, Absent, Kind},
     fit::{Fit, Reading, Sought, Standing, fit},
     friction::{Friction, RequiredTextures},
 };

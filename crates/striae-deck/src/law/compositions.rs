@@ -1,9 +1,7 @@
 //! Keys of the parameters of laws, for the reader, the schema and the reference.
 
-use striae_law::{
-    Laws,
-    declared::{self, Declared, Kind, Parameter, Set},
-};
+use striae_declared::{self as declared, Declared, Kind, Parameter, Set};
+use striae_law::Laws;
 
 use super::Named;
 use crate::{

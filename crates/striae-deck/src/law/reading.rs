@@ -1,6 +1,6 @@
 //! Parameters of a law as read from a table.
 
-use striae_law::declared::{Declared, Form, Kind, Parameter, Value, Values};
+use striae_declared::{Declared, Form, Kind, Parameter, Value, Values};
 
 use super::compositions::{form, of_set};
 use crate::{

@@ -1,8 +1,8 @@
 //! Friction laws and materials.
 
+use striae_declared::{Kind, Statement, Value, Values, degrees};
 use striae_law::{
     bulk::{Direction, FibreStiffness, Fibres, LinesAbout, Material},
-    declared::{Kind, Statement, Value, Values, degrees},
     friction::{DECAY, Friction},
 };
 

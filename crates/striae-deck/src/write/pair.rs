@@ -1,6 +1,6 @@
 //! Pairs: sides, textures, friction; ties.
 
-use striae_law::declared::degrees;
+use striae_declared::degrees;
 use striae_solve::model::{ContactSurface, Enforcement, Initial, Pair};
 use striae_surface::texture::{Axis, Lines, Paint};
 

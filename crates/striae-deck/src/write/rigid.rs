@@ -1,6 +1,6 @@
 //! Rigid bodies.
 
-use striae_law::declared::read_as;
+use striae_declared::read_as;
 use striae_solve::{
     model::{RigidInertia, RigidShape, RigidSurface},
     solid,

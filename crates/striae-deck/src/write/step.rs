@@ -1,6 +1,6 @@
 //! Steps and what they state.
 
-use striae_law::declared::degrees;
+use striae_declared::degrees;
 use striae_solve::model::{
     Axes, Displacement, Freedom, Load, LoadExtent, LoadKind, Mover, NodalForce, Procedure, Release,
     RigidMotion, Step, Velocity,

@@ -16,7 +16,8 @@ mod steps;
 
 use std::path::PathBuf;
 use striae_deck::{Deck, convert, parse};
-use striae_law::{declared::Kind, friction::Law};
+use striae_declared::Kind;
+use striae_law::friction::Law;
 use striae_mesh::Vec3;
 use striae_solve::model::{Axes, Curve, Displacement, LoadKind, Procedure, RigidShape};
 

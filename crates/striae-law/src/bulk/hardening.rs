@@ -13,7 +13,7 @@
 
 use serde::Serialize;
 
-use crate::declared::{Absent, NO_UNIT, NOT_NEGATIVE, POSITIVE, Parameter, Set, Values};
+use striae_declared::{Absent, NO_UNIT, NOT_NEGATIVE, POSITIVE, Parameter, Set, Values};
 
 /// Parameters of laws with a yield stress; [`Hardening::stated`] reads them.
 pub const HARDENING: Parameter = Parameter::one_of(

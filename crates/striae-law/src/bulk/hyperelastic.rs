@@ -20,10 +20,10 @@ use super::{
     InadmissibleHyperelastic, Isochoric, LameConstants, Law, Material, Response, ResponseError,
     Volumetric,
 };
-use crate::declared::Statement;
 use nalgebra::Matrix3;
 use num_dual::DualNum;
 use serde::Serialize;
+use striae_declared::Statement;
 
 impl Material {
     /// Rubber that does not relax.

@@ -12,9 +12,9 @@
 //! of the linear theory. No deformation gradient is rejected.
 
 use super::{ELASTIC_CONSTANTS, LameConstants, Law, Material, Response, Tangent};
-use crate::declared::Declared;
 use nalgebra::Matrix3;
 use num_dual::DualNum;
+use striae_declared::Declared;
 
 /// The law.
 pub static LINEAR_ELASTIC: Declared<Material> = Declared {

@@ -63,8 +63,8 @@ use serde::Serialize;
 pub use viscoelastic::{Branch, InadmissibleBranch, Viscoelastic};
 pub use volumetric::{VOLUMETRIC, Volumetric};
 
-use crate::declared::{Declared, Kind, Statement, Values};
 use nalgebra::{Matrix3, SMatrix, Vector3};
+use striae_declared::{Declared, Kind, Statement, Values};
 
 /// The laws that decks, the program and the Python package know by name.
 pub static LAWS: &[&Declared<Material>] = &[

@@ -9,7 +9,7 @@
 
 use serde::Serialize;
 
-use crate::declared::{ANY, NO_UNIT, POISSONS_RATIO, POSITIVE, Parameter, Set, Values};
+use striae_declared::{ANY, NO_UNIT, POISSONS_RATIO, POSITIVE, Parameter, Set, Values};
 
 /// Parameters of laws with two elastic constants; [`LameConstants::stated`] reads them.
 pub const ELASTIC_CONSTANTS: Parameter = Parameter::one_of(

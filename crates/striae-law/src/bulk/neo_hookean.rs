@@ -20,9 +20,9 @@ use super::{
     CompactResult, CompactTangent, ELASTIC_CONSTANTS, LameConstants, Law, Material, Response,
     Volumetric,
 };
-use crate::declared::Declared;
 use nalgebra::Matrix3;
 use num_dual::DualNum;
+use striae_declared::Declared;
 
 /// The law.
 pub static NEO_HOOKEAN: Declared<Material> = Declared {

@@ -30,9 +30,9 @@ use super::{
     ELASTIC_CONSTANTS, Field, Hardening, LameConstants, Law, Material, Past, Present, Response,
     ResponseError, Tangent,
 };
-use crate::declared::Declared;
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
+use striae_declared::Declared;
 
 /// The law.
 pub static ELASTIC_PLASTIC: Declared<Material> = Declared {

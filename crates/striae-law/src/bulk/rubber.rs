@@ -1,7 +1,7 @@
 //! Parameters that all rubber has, whatever its isochoric energy.
 
 use super::volumetric::VOLUMETRIC;
-use crate::declared::{Absent, NO_UNIT, POISSONS_RATIO, POSITIVE, Parameter, Set};
+use striae_declared::{Absent, NO_UNIT, POISSONS_RATIO, POSITIVE, Parameter, Set};
 
 /// Bulk modulus or Poisson's ratio.
 const COMPRESSIBILITY: Parameter = Parameter::one_of(

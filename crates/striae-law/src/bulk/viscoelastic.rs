@@ -32,9 +32,9 @@
 use super::rubber::RELAXATION;
 use super::spectrum::{FLOW, Spectrum};
 use super::{Hyperelastic, LameConstants, Law, Material, Past, Present, Response, ResponseError};
-use crate::declared::Values;
 use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
+use striae_declared::Values;
 
 impl Branch {
     /// Branches that the value of [`RELAXATION`] states, if there are any.

@@ -12,7 +12,7 @@
 use num_dual::DualNum;
 use serde::Serialize;
 
-use crate::declared::{Parameter, Values};
+use striae_declared::{Parameter, Values};
 
 /// The energies by their names, with their formulas.
 const ENERGIES: &[(Volumetric, (&str, &str))] = &[

@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use nalgebra::{DVector, Matrix2xX, Vector2};
 
 use super::{ConstantName, Reading, Sought};
-use crate::declared::{Form, Value, Values, degrees};
 use crate::friction::{Basis, Direction, Friction, FrictionError, Meaning};
+use striae_declared::{Form, Value, Values, degrees};
 
 /// Difference below which two angles of a table are the same (radians).
 const SAME: f64 = 1e-6;

@@ -58,11 +58,11 @@ use nalgebra::{DMatrix, DVector, Vector2};
 pub use error::FitError;
 pub use reading::Reading;
 
-use crate::declared::{self, Absent, Declared, Value, Values};
 use crate::friction::{Basis, Direction, Friction, LAWS};
 use basis::Shape;
 use reading::mean_friction;
 use specimens::Equations;
+use striae_declared::{self as declared, Absent, Declared, Value, Values};
 
 /// Least dissipation of a fitted law over the mean measured friction.
 const LEAST_DISSIPATION: f64 = 1e-3;

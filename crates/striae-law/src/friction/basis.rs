@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::{DMatrix, DVector, Vector2};
 
-use crate::declared::Values;
+use striae_declared::Values;
 
 /// Directions of slip in which a law must dissipate.
 const DIRECTIONS: usize = 720;

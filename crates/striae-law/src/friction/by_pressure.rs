@@ -42,7 +42,7 @@ use serde::Serialize;
 
 use super::error::{FrictionError, positive};
 use super::monotone::Monotone;
-use crate::declared::{
+use striae_declared::{
     Absent, Declared, Kind, NO_UNIT, NOT_NEGATIVE, POSITIVE, Parameter, Statement, Values,
 };
 

@@ -38,7 +38,7 @@ use serde::Serialize;
 
 use super::error::{FrictionError, finite, not_negative, positive, within};
 use super::monotone::Monotone;
-use crate::declared::{
+use striae_declared::{
     ANY, Absent, Bound, Declared, Kind, NO_UNIT, NOT_NEGATIVE, POSITIVE, Parameter, Statement,
     Values,
 };

@@ -20,7 +20,7 @@ use serde::Serialize;
 
 use super::error::{FrictionError, positive};
 use super::monotone::Monotone;
-use crate::declared::{Declared, Kind, NO_UNIT, NOT_NEGATIVE, POSITIVE, Parameter, Statement};
+use striae_declared::{Declared, Kind, NO_UNIT, NOT_NEGATIVE, POSITIVE, Parameter, Statement};
 
 /// Dependence of coefficients of friction on the accumulated slip.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]

@@ -55,7 +55,7 @@ use serde::Serialize;
 use super::error::{FrictionError, not_negative, positive};
 pub use healing::{Healing, HealingCourse};
 
-use crate::declared::{
+use striae_declared::{
     Absent, Declared, Kind, NO_UNIT, NOT_NEGATIVE, POSITIVE, Parameter, Statement, Values,
 };
 

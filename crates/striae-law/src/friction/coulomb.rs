@@ -15,8 +15,8 @@ use super::error::FrictionError;
 use super::kernel::Kernel;
 use super::slip_sample::SlipRule;
 use super::{Friction, Law};
-use crate::declared::{Declared, NO_UNIT, NOT_NEGATIVE, Parameter, Values};
 use num_dual::DualNum;
+use striae_declared::{Declared, NO_UNIT, NOT_NEGATIVE, Parameter, Values};
 
 /// No friction.
 pub static FRICTIONLESS: Declared<Friction> = Declared {

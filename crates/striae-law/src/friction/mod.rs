@@ -75,9 +75,9 @@ pub use tabulated::{Radial, Tabulated};
 pub use textures::Textures;
 pub use two_textures::{LeastDissipation, TwoTextures};
 
-use crate::declared::{Declared, Kind, Statement};
 use error::positive;
 use nalgebra::Vector3;
+use striae_declared::{Declared, Kind, Statement};
 
 /// The laws that decks, the program and the Python package know by name.
 pub static LAWS: &[&Declared<Friction>] = &[

@@ -37,7 +37,7 @@ use super::error::{FrictionError, positive};
 use super::kernel::Kernel;
 use super::slip_sample::SlipRule;
 use super::{Friction, Law};
-use crate::declared::{Declared, NO_UNIT, POSITIVE, Parameter};
+use striae_declared::{Declared, NO_UNIT, POSITIVE, Parameter};
 
 /// The law.
 pub static NAP: Declared<Friction> = Declared {

@@ -42,7 +42,7 @@ use super::error::{FrictionError, positive};
 use super::kernel::Kernel;
 use super::slip_sample::SlipRule;
 use super::{Friction, Law};
-use crate::declared::{Declared, NO_UNIT, POSITIVE, Parameter, Values};
+use striae_declared::{Declared, NO_UNIT, POSITIVE, Parameter, Values};
 
 /// The law.
 pub static ORTHOTROPIC: Declared<Friction> = Declared {

@@ -50,7 +50,7 @@ use super::error::{FrictionError, finite};
 use super::periodic::Periodic;
 use super::star::Star;
 use super::{Friction, Law};
-use crate::declared::{ANY, Declared, NO_UNIT, POSITIVE, Parameter, Value, Values, degrees};
+use striae_declared::{ANY, Declared, NO_UNIT, POSITIVE, Parameter, Value, Values, degrees};
 
 /// The law.
 pub static TABULATED: Declared<Friction> = Declared {

@@ -68,7 +68,7 @@ use super::error::{FrictionError, finite};
 use super::kernel::Kernel;
 use super::slip_sample::SlipRule;
 use super::{Friction, Law};
-use crate::declared::{ANY, Declared, NO_UNIT, NOT_NEGATIVE, Parameter};
+use striae_declared::{ANY, Declared, NO_UNIT, NOT_NEGATIVE, Parameter};
 
 /// The law.
 pub static TWO_TEXTURES: Declared<Friction> = Declared {

@@ -4,11 +4,8 @@ use clap::{
     Arg, ArgMatches, Command, Error,
     builder::{PossibleValue, PossibleValuesParser},
 };
-use striae_law::{
-    declared::{Form, Parameter},
-    fit::Sought,
-    friction::LAWS,
-};
+use striae_declared::{Form, Parameter};
+use striae_law::{fit::Sought, friction::LAWS};
 
 /// A law that measurements can give.
 #[derive(Clone, Debug)]

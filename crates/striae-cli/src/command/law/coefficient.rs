@@ -1,9 +1,7 @@
 //! The coefficient of friction in words.
 
-use striae_law::{
-    declared::Kind,
-    friction::{DECAY, Friction},
-};
+use striae_declared::Kind;
+use striae_law::friction::{DECAY, Friction};
 
 /// `varpi` and what it depends on in words.
 pub(super) fn coefficient(friction: &Friction) -> String {

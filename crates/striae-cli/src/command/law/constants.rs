@@ -1,7 +1,8 @@
 //! Flags with the constants of declared laws.
 
 use clap::{Arg, ArgGroup, ArgMatches, Command, Error};
-use striae_law::{declared::Declared, friction::Friction, friction::LAWS};
+use striae_declared::Declared;
+use striae_law::{friction::Friction, friction::LAWS};
 
 /// A friction in the words of a deck, without a deck: the name of a law, and its constants.
 pub struct Constants(pub Option<(&'static str, String)>);

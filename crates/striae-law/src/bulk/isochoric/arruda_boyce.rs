@@ -10,8 +10,8 @@
 
 use super::{Invariant, Isochoric, finite, positive};
 use crate::bulk::{InadmissibleHyperelastic, Material, RUBBER};
-use crate::declared::{Bound, Declared, NO_UNIT, POSITIVE, Parameter};
 use num_dual::DualNum;
+use striae_declared::{Bound, Declared, NO_UNIT, POSITIVE, Parameter};
 
 /// The law.
 pub static ARRUDA_BOYCE: Declared<Material> = Declared {

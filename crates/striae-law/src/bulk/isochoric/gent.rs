@@ -4,8 +4,8 @@
 
 use super::{Invariant, Isochoric};
 use crate::bulk::{Material, RUBBER};
-use crate::declared::{Declared, NO_UNIT, POSITIVE, Parameter};
 use num_dual::DualNum;
+use striae_declared::{Declared, NO_UNIT, POSITIVE, Parameter};
 
 /// The law.
 pub static GENT: Declared<Material> = Declared {

@@ -18,10 +18,10 @@ pub use own::{IsochoricLaw, OwnIsochoric};
 
 use super::invariants::Invariant;
 use super::{OgdenTerm, ResponseError};
-use crate::declared::Values;
 use nalgebra::{Matrix3, Vector3};
 use num_dual::{DualNum, hessian};
 use serde::Serialize;
+use striae_declared::Values;
 
 /// Isochoric part of the stored energy. Moduli are stresses.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -4,7 +4,7 @@
 
 use super::{Invariant, Isochoric};
 use crate::bulk::{Material, RUBBER};
-use crate::declared::{ANY, Declared, Parameter};
+use striae_declared::{ANY, Declared, Parameter};
 
 /// The law.
 pub static MOONEY_RIVLIN: Declared<Material> = Declared {

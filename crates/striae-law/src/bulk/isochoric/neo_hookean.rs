@@ -2,7 +2,7 @@
 
 use super::{Invariant, Isochoric};
 use crate::bulk::{Material, RUBBER};
-use crate::declared::{Declared, POSITIVE, Parameter};
+use striae_declared::{Declared, POSITIVE, Parameter};
 
 /// The law.
 pub static ISOCHORIC_NEO_HOOKEAN: Declared<Material> = Declared {

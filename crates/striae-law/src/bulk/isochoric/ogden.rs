@@ -28,9 +28,9 @@
 use super::{InadmissibleHyperelastic, Isochoric, finite};
 use crate::bulk::invariants::inverse;
 use crate::bulk::{Material, RUBBER, Response, ResponseError, Tangent, Volumetric};
-use crate::declared::{ANY, Declared, NO_UNIT, Parameter, Set, Values};
 use nalgebra::{Matrix3, SVector, SymmetricEigen};
 use serde::Serialize;
+use striae_declared::{ANY, Declared, NO_UNIT, Parameter, Set, Values};
 
 /// The law.
 pub static OGDEN: Declared<Material> = Declared {

@@ -4,7 +4,7 @@
 
 use super::{Invariant, Isochoric};
 use crate::bulk::{Material, RUBBER};
-use crate::declared::{ANY, Declared, POSITIVE, Parameter};
+use striae_declared::{ANY, Declared, POSITIVE, Parameter};
 
 /// The law.
 pub static YEOH: Declared<Material> = Declared {

@@ -48,13 +48,13 @@ use num_dual::DualNum;
 use serde::Serialize;
 
 use super::StateDependence;
-use crate::declared::{
-    Absent, Bound, Declared, NO_UNIT, NOT_NEGATIVE, POSITIVE, Parameter, Values,
-};
 use crate::friction::error::{FactorFailure, FrictionError, not_negative, positive, within};
 use crate::friction::factor::{
     Course, Factor, FactorBatch, FactorLane, FactorLaw, FactorPoint, FactorPoints, FactorRange,
     PointWise,
+};
+use striae_declared::{
+    Absent, Bound, Declared, NO_UNIT, NOT_NEGATIVE, POSITIVE, Parameter, Values,
 };
 
 /// Constants of friction that heals.

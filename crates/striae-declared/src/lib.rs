@@ -1,15 +1,13 @@
-//! Laws as they are declared: once, with everything that others say of them.
+//! Laws and mesh generators as they are declared: once, with everything that others say of them.
 //!
-//! A [`Declared`] law has a name, parameters and a function that makes the law of their
+//! A [`Declared`] law or generator has a name, parameters and a function that makes it of their
 //! values. Decks, their schema and reference, the program and the Python package list, read,
-//! check and write laws from these tables and know none of them.
+//! check and write them from these tables and know none of them.
 //!
 //! Values are in the words of a deck: angles are in degrees.
 
 mod set;
 mod terms;
-#[cfg(test)]
-mod tests;
 mod value;
 
 pub use set::{Choice, Set};
@@ -258,7 +256,7 @@ impl Parameter {
 
 impl<L: Kind> Declared<L> {
     /// Returns the statement of a law by values of all its parameters.
-    pub(crate) fn stated(&self, values: Values) -> Statement {
+    pub fn stated(&self, values: Values) -> Statement {
         Statement {
             law: self.name,
             values,

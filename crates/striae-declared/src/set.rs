@@ -109,7 +109,7 @@ pub(super) fn completed(parameters: &[Parameter], given: &Values, values: Values
 #[cfg(test)]
 mod tests {
     use super::{Choice, Set};
-    use crate::declared::{ANY, Absent, NO_UNIT, Parameter};
+    use crate::{ANY, Absent, NO_UNIT, Parameter};
 
     const fn number(name: &'static str) -> Parameter {
         Parameter::number(name, ANY, NO_UNIT, "A number.")
