@@ -1,6 +1,7 @@
 """Writes the classes of declared laws, ``python/striae/_laws.py`` of friction and ``_materials.py``
-of bulk laws, and the methods of declared dependences, ``_dependences.py``:
-``python crates/striae-py/declared.py``, with the package installed."""
+of bulk laws, the methods of declared dependences, ``_dependences.py``, and the functions of
+declared generators, ``_generators.py``: ``python crates/striae-py/declared.py``, with the package
+installed."""
 
 from __future__ import annotations
 
@@ -10,7 +11,7 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from textwrap import fill
+from textwrap import dedent, fill
 
 from striae import _striae as native
 
@@ -38,6 +39,18 @@ LAWS = '''"""Friction laws as the library declares them, written by ``declared.p
 MATERIALS = '''"""Bulk laws as the library declares them, written by ``declared.py``."""
 ''' + IMPORTS.format(typing="Literal, Optional", check="Values") + """from ._material import {bases}
 """
+
+GENERATORS = '''"""Generators of meshes as the library declares them, written by ``declared.py``."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Literal, Optional, Union
+
+from . import _check as check
+from ._check import Floats, Ints, Values, Vector
+from ._mesh import Mesh
+'''
 
 DEPENDENCES = '''"""Dependences of friction as the library declares them, written by ``declared.py``."""
 ''' + IMPORTS.format(typing="TYPE_CHECKING, Optional, Union", check="Floats, Values") + '''from ._made import Made
@@ -90,6 +103,11 @@ def class_name(law: str) -> str:
     return "".join(word.capitalize() for word in law.split("-"))
 
 
+def function_name(generator: str) -> str:
+    """Name of the function of a generator."""
+    return generator.replace("-", "_")
+
+
 def method_name(key: str, form: str, count: int) -> str:
     """Name of the method of a dependence, with its key if others have the same form."""
     name = "with_" + form.replace("-", "_")
@@ -125,9 +143,34 @@ def row(parameter: native.Parameter) -> list[native.Parameter]:
     return parameter.sets[0][1]
 
 
+def is_row(parameter: native.Parameter) -> bool:
+    """Returns whether a table is stated by a tuple of numbers, not by its keys."""
+    return all(one.form == "number" and one.is_required for one in row(parameter))
+
+
+def union(types: list[str]) -> str:
+    """Any of several types."""
+    inner = [re.sub(r"^Union\[(.*)\]$", r"\1", one) for one in types]
+    each = list(dict.fromkeys(inner))
+    return types[0] if len(each) == 1 else f"Union[{', '.join(each)}]"
+
+
+def types_of_members(parameters: list[native.Parameter]) -> list[str]:
+    """Types of the values of a table."""
+    types = []
+    for one in parameters:
+        sets = [of for _, of in one.sets] if one.form == "one_of" else []
+        types += [each for of in sets for each in types_of_members(of)] or [type_of(one)]
+    return types
+
+
 def type_of(parameter: native.Parameter) -> str:
     """Type of an argument."""
     form = parameter.form
+    if form in ("several", "whole", "counts"):
+        return {"several": "Vector", "whole": "int", "counts": "Union[Sequence[int], Ints]"}[form]
+    if form == "table" and not is_row(parameter):
+        return f"Mapping[str, {union(types_of_members(row(parameter)))}]"
     if form == "word":
         return "Literal[" + ", ".join(f'"{word}"' for word, _ in parameter.words) + "]"
     if form in ("number", "numbers"):
@@ -145,6 +188,8 @@ def stated(of: Argument) -> str:
     if of.may_be_none:
         return f"{of.name}: Optional[{told}] = None"
     value = of.parameter.value
+    if isinstance(value, list):
+        value = tuple(value)
     default = "()" if value is None else f'"{value}"' if of.parameter.form == "word" else repr(value)
     return f"{of.name}: {told} = {default}"
 
@@ -159,6 +204,15 @@ def checked(of: Argument) -> str:
         return f'"{name}": check.optional({name}, "{name}")'
     elif form in ("number", "numbers"):
         call = f'check.{form}({name}, "{name}")'
+    elif form == "whole":
+        least = int(of.parameter.bounds[0][1])
+        call = f'check.whole({name}, "{name}"{"" if least == 1 else f", {least}"})'
+    elif form in ("several", "counts"):
+        count = of.parameter.count
+        kind = "vector" if form == "several" else form
+        call = f'check.{kind}({name}, "{name}"{"" if count == 3 else f", {count}"})'
+    elif form == "table" and not is_row(of.parameter):
+        call = f'check.table({name}, "{name}")'
     elif form == "table":
         call = f'check.row({name}, "{name}", {len(row(of.parameter))})'
     else:
@@ -190,6 +244,31 @@ def bounded(parameter: native.Parameter) -> str:
     return told + (f" ({parameter.unit})" if parameter.unit else "")
 
 
+def keyed(parameters: list[native.Parameter]) -> str:
+    """Keys of a table."""
+    tables = [one for one in parameters if one.form == "table"]
+    inner = {keyed(row(one)) for one in tables}
+    is_alike = len(inner) == 1 and len(tables) == len(parameters) > 1
+    told = []
+    for one in parameters:
+        if one.form == "one_of":
+            told.append(" or ".join(keyed(of) for _, of in one.sets))
+            continue
+        own = f"`{one.name}`, {bounded(one)}"
+        if not one.is_required_in_decks and one.form != "table":
+            own += f", {defaulting(one)}"
+        if one.form == "table" and not is_alike:
+            own += f", with {keyed(row(one))}"
+        told.append(own)
+    return ", ".join(told) + (f"; each with {inner.pop()}" if is_alike else "")
+
+
+def defaulting(parameter: native.Parameter) -> str:
+    """Value of a parameter where it is not given."""
+    value = parameter.value
+    return f"{parameter.default or ('none' if value is None else f'`{value}`')} by default"
+
+
 def explained(of: Argument) -> str:
     """An argument in a docstring."""
     parameter = of.parameter
@@ -197,28 +276,50 @@ def explained(of: Argument) -> str:
     if parameter.words:
         words = parameter.words
         text += ": " + "; ".join(f"`{word}`: {what.rstrip('.')}" for word, what in words)
-    if parameter.form in ("table", "tables"):
+    if parameter.form == "table" and not is_row(parameter):
+        text += f"; a mapping with {keyed(row(parameter))}"
+    elif parameter.form in ("table", "tables"):
         each = ", ".join(f"`{one.name}`, {bounded(one)}" for one in row(parameter))
         text += f"; {'each ' if parameter.form == 'tables' else ''}of {each}"
     if of.instead:
         text += f"; it or {of.instead} is needed"
     elif not of.is_required and (of.is_chosen or parameter.value is None):
-        default = parameter.default or parameter.value
-        text += "; none by default" if default is None or default == "" else f"; `{default}` by default"
+        text += f"; {defaulting(parameter)}"
     text = ticked(text) + "."
     doc = parameter.sets[0][0] if parameter.form == "tables" else ""
     # The first sentence tells what an element is, which the names of its members tell too.
     _, _, more = doc.partition(". ")
     text += " " + ticked(more) if more else ""
-    return fill(text, 99, initial_indent=" " * 8, subsequent_indent=" " * 12)
+    first, others = " " * 8, " " * 12
+    return fill(
+        text, 99, initial_indent=first, subsequent_indent=others, break_on_hyphens=False
+    )
 
 
-def function(head: str, result: str, doc: str, parameters: list[native.Parameter], call: str) -> str:
+def method(head: str, result: str, doc: str, parameters: list[native.Parameter], call: str) -> str:
     """A method with a docstring, which calls another with the values."""
     found = list(arguments(parameters))
     plain = [stated(one) for one in found if not one.is_shared]
     shared = [stated(one) for one in found if one.is_shared]
     all_of = ["self", *plain, *(["*", *shared] if shared else [])]
+    return function(head, result, doc, found, all_of, call)
+
+
+def generator(name: str, doc: str, parameters: list[native.Parameter]) -> str:
+    """The function of a generator; what decks need not state goes by keyword."""
+    found = list(arguments(parameters))
+    found.sort(key=lambda one: not one.parameter.is_required_in_decks)
+    plain = [stated(one) for one in found if one.parameter.is_required_in_decks]
+    named = [stated(one) for one in found if not one.parameter.is_required_in_decks]
+    all_of = [*plain, *(["*", *named] if named else [])]
+    call = f'return Mesh._generated("{name}", values)'
+    return dedent(function(function_name(name), "Mesh", doc, found, all_of, call))
+
+
+def function(
+    head: str, result: str, doc: str, found: list[Argument], all_of: list[str], call: str
+) -> str:
+    """A function with a docstring, which calls another with the values."""
     lines = [f"    def {head}({', '.join(all_of)}) -> {result}:"]
     if len(lines[0]) > 99:
         inner = "".join(f"        {one},\n" for one in all_of)
@@ -252,7 +353,7 @@ def classes(head: str, declared: list[Law], common: str, made: str) -> str:
     for law, summary, _, parameters in declared:
         doc = fill(f'"""{ticked(summary)}"""', 99, initial_indent=" " * 4, subsequent_indent=" " * 4)
         call = f'self._make("{law}", values)'
-        init = function("__init__", "None", made, parameters, call)
+        init = method("__init__", "None", made, parameters, call)
         parts.append(f"\nclass {class_name(law)}({bases[law]}):\n{doc}\n\n{init}")
     return "\n".join(parts)
 
@@ -280,15 +381,24 @@ def dependences(declared: list[tuple[str, list[Law]]]) -> str:
             name = method_name(key, form, counts[form])
             doc = f"Returns the law with a dependence `{key}`, in place of another one. {summary}"
             call = f'return self._with("{key}", "{form}", "{name}", values)'
-            parts.append(function(name, "Friction", doc, parameters, call))
+            parts.append(method(name, "Friction", doc, parameters, call))
+    return "\n".join(parts)
+
+
+def generators(declared: list[Law]) -> str:
+    """The module of generators."""
+    names = sorted(function_name(name) for name, *_ in declared)
+    parts = [GENERATORS, "__all__ = [\n" + "".join(f'    "{name}",\n' for name in names) + "]\n"]
+    parts += ["\n" + generator(name, doc, parameters) for name, doc, _, parameters in declared]
     return "\n".join(parts)
 
 
 def written() -> dict[Path, str]:
     """Files with their texts."""
-    kinds = dict(native.declared_laws())
-    bulk, friction = kinds.pop("material"), kinds.pop("law")
+    kinds = dict(native.declarations())
+    meshes, bulk, friction = [kinds.pop(kind) for kind in ("generator", "material", "law")]
     return {
+        HERE / "_generators.py": generators(meshes),
         HERE / "_laws.py": laws(friction),
         HERE / "_materials.py": materials(bulk),
         HERE / "_dependences.py": dependences(list(kinds.items())),

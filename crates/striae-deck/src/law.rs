@@ -1,7 +1,7 @@
-//! Laws in tables: the name of a declared law at one key, its parameters at others.
+//! Laws and generators in tables: the name of a declared one at one key, its parameters at others.
 //!
-//! Reader, schema and reference follow from the declarations of `striae-law`; this crate
-//! knows no law by name.
+//! Reader, schema and reference follow from the declarations of `striae-law` and `striae-mesh`;
+//! this crate knows no law and no generator by name.
 
 mod compositions;
 mod reading;
@@ -15,6 +15,7 @@ use striae_law::{
         RateDependence, SlipDependence, StateDependence,
     },
 };
+use striae_mesh::generate::{GENERATORS, Generator};
 
 use super::{
     declare::read_as_table,
@@ -56,6 +57,16 @@ impl Named for Material {
 
     fn declared(laws: &Laws) -> &[&'static Declared<Self>] {
         laws.bulk()
+    }
+}
+
+impl Named for Generator {
+    const TAG: &'static str = "generator";
+    const DOC: &'static str = "Generator of the mesh.";
+    const OPEN: Option<Open> = None;
+
+    fn declared(_: &Laws) -> &[&'static Declared<Self>] {
+        GENERATORS
     }
 }
 

@@ -78,14 +78,10 @@ number! {
     NonNegative [Bound::AtLeast(0.0)]
     /// A part of a whole.
     Fraction [Bound::Above(0.0), Bound::AtMost(1.0)]
-    /// A part of less than half.
-    BelowHalf [Bound::AtLeast(0.0), Bound::Below(0.5)]
     /// An angle in degrees up to that of a half turn.
     HalfTurn [Bound::AtLeast(0.0), Bound::AtMost(180.0)]
     /// An angle in degrees above zero, up to that of a half turn.
     Angle [Bound::Above(0.0), Bound::AtMost(180.0)]
-    /// A ratio by which something grows.
-    Growth [Bound::AtLeast(1.0)]
 }
 
 /// A number, or the text of a function of position and time.
@@ -122,14 +118,7 @@ pub(crate) type Count = Whole<1>;
 
 impl<const LEAST: usize> Read for Whole<LEAST> {
     fn read(value: &Value<'_>, place: &Place, faults: &mut FaultList<'_>) -> Option<Self> {
-        match value.get_ref() {
-            DeValue::Integer(integer) => usize::from_str_radix(integer.as_str(), integer.radix())
-                .ok()
-                .filter(|number| *number >= LEAST)
-                .map(Self)
-                .or_else(|| unexpected(value, place, faults, &Self::form())),
-            _ => unexpected(value, place, faults, &Self::form()),
-        }
+        whole(value, place, faults, LEAST).map(Self)
     }
 
     fn form() -> Form {
@@ -246,6 +235,23 @@ impl Read for OneOrMore {
 
     fn form() -> Form {
         Form::Any(vec![Text::form(), All::<Text>::form()])
+    }
+}
+
+/// A whole number of at least a least one.
+pub(crate) fn whole(
+    value: &Value<'_>,
+    place: &Place,
+    faults: &mut FaultList<'_>,
+    least: usize,
+) -> Option<usize> {
+    let found = match value.get_ref() {
+        DeValue::Integer(integer) => usize::from_str_radix(integer.as_str(), integer.radix()).ok(),
+        _ => None,
+    };
+    match found {
+        Some(number) if number >= least => Some(number),
+        _ => unexpected(value, place, faults, &Form::Whole(least)),
     }
 }
 

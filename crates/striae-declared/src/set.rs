@@ -1,15 +1,6 @@
 //! Sets of parameters: those of a table, and those of which exactly one set is given.
 
-use super::{Form, Parameter, Value, Values};
-
-/// Parameters that belong together.
-#[derive(Debug)]
-pub struct Set {
-    /// Description in one sentence or more.
-    pub doc: &'static str,
-    /// The parameters.
-    pub parameters: &'static [Parameter],
-}
+use super::{Form, Parameter, Set, Value, Values};
 
 /// Values from which no set, or more than one, follows.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -108,8 +99,8 @@ pub(super) fn completed(parameters: &[Parameter], given: &Values, values: Values
 
 #[cfg(test)]
 mod tests {
-    use super::{Choice, Set};
-    use crate::{ANY, Absent, NO_UNIT, Parameter};
+    use super::Choice;
+    use crate::{ANY, Absent, NO_UNIT, Parameter, Set};
 
     const fn number(name: &'static str) -> Parameter {
         Parameter::number(name, ANY, NO_UNIT, "A number.")

@@ -7,6 +7,10 @@ pub enum Value {
     Number(f64),
     /// A list of numbers.
     Numbers(Vec<f64>),
+    /// A whole number.
+    Whole(usize),
+    /// Numbers of things.
+    Counts(Vec<usize>),
     /// One of the words of the parameter.
     Word(&'static str),
     /// A list of pairs of numbers.
@@ -81,6 +85,47 @@ impl Values {
             _ => None,
         });
         found.expect("the law declares the list it asks for")
+    }
+
+    /// Returns so many numbers.
+    ///
+    /// # Panics
+    /// When there are not that many of that name.
+    pub fn array<const N: usize>(&self, name: &str) -> [f64; N] {
+        let found = self.numbers(name).try_into();
+        found.expect("the law declares as many numbers as it asks for")
+    }
+
+    /// Returns so many numbers, if they are there.
+    ///
+    /// # Panics
+    /// When there is another number of them.
+    pub fn array_if_any<const N: usize>(&self, name: &str) -> Option<[f64; N]> {
+        self.get(name).map(|_| self.array(name))
+    }
+
+    /// Returns a whole number.
+    ///
+    /// # Panics
+    /// When there is none of that name.
+    pub fn whole(&self, name: &str) -> usize {
+        let found = self.get(name).and_then(|value| match value {
+            Value::Whole(number) => Some(*number),
+            _ => None,
+        });
+        found.expect("the law declares the whole number it asks for")
+    }
+
+    /// Returns so many numbers of things.
+    ///
+    /// # Panics
+    /// When there are not that many of that name.
+    pub fn counts<const N: usize>(&self, name: &str) -> [usize; N] {
+        let found = self.get(name).and_then(|value| match value {
+            Value::Counts(counts) => counts.as_slice().try_into().ok(),
+            _ => None,
+        });
+        found.expect("the law declares as many numbers as it asks for")
     }
 
     /// Returns a word.
@@ -161,6 +206,18 @@ impl From<Vec<f64>> for Value {
 impl From<&[f64]> for Value {
     fn from(numbers: &[f64]) -> Self {
         Self::Numbers(numbers.to_vec())
+    }
+}
+
+impl From<usize> for Value {
+    fn from(number: usize) -> Self {
+        Self::Whole(number)
+    }
+}
+
+impl From<&[usize]> for Value {
+    fn from(counts: &[usize]) -> Self {
+        Self::Counts(counts.to_vec())
     }
 }
 

@@ -21,6 +21,10 @@ fn value(form: Form) -> Value {
     match form {
         Form::Number(bounds) => number(bounds).into(),
         Form::Numbers(bounds) => vec![number(bounds), 1.0, 2.0].into(),
+        Form::Several(count, bounds) => vec![number(bounds); count].into(),
+        Form::Direction => vec![0.0, 0.0, 1.0].into(),
+        Form::Whole(least) => least.into(),
+        Form::Counts(count) => vec![1; count].as_slice().into(),
         Form::Word(words) => words[0].0.into(),
         Form::Pairs => vec![[0.0, 0.3], [0.5, 1.5]].into(),
         Form::Table(set) => table(set.parameters).into(),
@@ -55,8 +59,9 @@ fn ways(parameters: &[Parameter], only_required: bool) -> Vec<Values> {
 fn are_told(parameters: &[Parameter]) {
     for parameter in parameters {
         let has_unit = match parameter.form {
-            Form::Number(_) | Form::Numbers(_) => true,
+            Form::Number(_) | Form::Numbers(_) | Form::Several(..) => true,
             Form::Word(_) | Form::Pairs => false,
+            Form::Direction | Form::Whole(_) | Form::Counts(_) => false,
             Form::Table(set) | Form::Tables(set) => {
                 assert!(set.doc.ends_with('.'), "{}", set.doc);
                 are_told(set.parameters);

@@ -1,18 +1,23 @@
-//! Declared laws: made of values by their names, and listed for the classes of the package,
-//! which `declared.py` writes.
+//! Declared laws and generators: made of values by their names, and listed for the classes and
+//! functions of the package, which `declared.py` writes.
+
+use std::collections::BTreeMap;
 
 use pyo3::prelude::*;
-use striae::declared::{self, Absent, Bound, Declared, Form, Kind, Set, Value, Values, named};
+use striae::declared::{self, ANY, Absent, Bound, Declared, Form, Kind, Set, Value, Values, named};
 use striae::law::{
     bulk,
     friction::{BY_PRESSURE, BY_RATE, BY_SLIP, BY_STATE, DECAY, LAWS},
 };
+use striae::mesh::generate::GENERATORS;
 
 use crate::fault::refused;
 
 /// A value of a parameter.
 #[derive(Clone, FromPyObject, IntoPyObject)]
 pub enum Given {
+    /// A whole number.
+    Whole(usize),
     /// A number.
     Number(f64),
     /// A list of numbers, or the values of a table in the order of its parameters.
@@ -21,6 +26,10 @@ pub enum Given {
     Word(String),
     /// Several of them.
     Rows(Vec<Vec<f64>>),
+    /// The values of a table by its keys.
+    Table(BTreeMap<String, Given>),
+    /// A list of whole numbers, which comes back as one of numbers.
+    Counts(Vec<usize>),
 }
 
 /// A parameter of a declared law.
@@ -33,6 +42,8 @@ pub struct Parameter {
     form: &'static str,
     /// Words with their descriptions.
     words: Vec<(&'static str, &'static str)>,
+    /// Count of numbers, where it is fixed.
+    count: usize,
     /// Bounds of numbers, each with what a number must be.
     bounds: Vec<(&'static str, f64)>,
     /// Unit.
@@ -41,10 +52,12 @@ pub struct Parameter {
     doc: &'static str,
     /// Necessity.
     is_required: bool,
-    /// Default, if it is a number or a word.
+    /// Necessity in decks.
+    is_required_in_decks: bool,
+    /// Default, if it is a value.
     value: Option<Given>,
-    /// Description of another default.
-    default: &'static str,
+    /// Description of another default, in which code is in ticks.
+    default: String,
     /// Sets of further parameters with their descriptions.
     sets: Vec<(&'static str, Vec<Parameter>)>,
 }
@@ -81,7 +94,7 @@ fn found(
         }
         match given(name) {
             Some((_, given)) => all = all.with(name, value(parameter.form, given, name)?),
-            None if !parameter.is_required() => {}
+            None if !parameter.is_required_in_programs() => {}
             None => return Err(refused(name, "it is needed")),
         }
     }
@@ -95,8 +108,22 @@ fn value(form: Form, given: &Given, name: &str) -> PyResult<Value> {
         let fits = row.len() == set.parameters.len();
         fits.then(|| values.collect::<Values>())
     };
+    if let (Form::Table(set), Given::Table(given)) = (form, given) {
+        return stated_table(set, given, name).map(Value::Table);
+    }
     let made: Option<Value> = match (form, given) {
         (Form::Number(_), Given::Number(number)) => Some((*number).into()),
+        (Form::Whole(_), Given::Whole(number)) => Some((*number).into()),
+        (Form::Several(count, _), Given::Numbers(numbers)) => {
+            (numbers.len() == count).then(|| numbers.clone().into())
+        }
+        (Form::Direction, Given::Numbers(numbers)) => {
+            (numbers.len() == 3).then(|| numbers.clone().into())
+        }
+        (Form::Counts(count), Given::Numbers(numbers)) => {
+            let whole = numbers.iter().map(|number| *number as usize);
+            (numbers.len() == count).then(|| Value::Counts(whole.collect()))
+        }
         (Form::Numbers(_), Given::Numbers(numbers)) => Some(numbers.clone().into()),
         (Form::Word(words), Given::Word(word)) => {
             let word = words.iter().find(|(known, _)| known == word);
@@ -118,7 +145,31 @@ fn value(form: Form, given: &Given, name: &str) -> PyResult<Value> {
         }
         _ => None,
     };
-    made.ok_or_else(|| refused(name, "it has another form than the parameter of the law"))
+    made.ok_or_else(|| refused(name, "it has another form than the parameter"))
+}
+
+/// The values of a table by its keys.
+fn stated_table(set: &Set, given: &BTreeMap<String, Given>, name: &str) -> PyResult<Values> {
+    let known = keys(set.parameters);
+    if let Some(unknown) = given.keys().find(|key| !known.contains(&key.as_str())) {
+        let known = known.join("`, `");
+        let told = format!("its keys are `{known}`, but there is `{unknown}`");
+        return Err(refused(name, told));
+    }
+    let given = given
+        .iter()
+        .map(|(key, value)| (key.clone(), value.clone()));
+    found(set.parameters, name, &given.collect::<Vec<_>>())
+}
+
+fn keys(parameters: &[declared::Parameter]) -> Vec<&'static str> {
+    let each = parameters
+        .iter()
+        .flat_map(|parameter| match parameter.form {
+            Form::OneOf(sets) => sets.iter().flat_map(|set| keys(set.parameters)).collect(),
+            _ => vec![parameter.name],
+        });
+    each.collect()
 }
 
 /// Values by their names, in their order.
@@ -140,6 +191,8 @@ impl From<&Value> for Given {
         };
         match value {
             Value::Number(number) => Self::Number(*number),
+            Value::Whole(number) => Self::Whole(*number),
+            Value::Counts(counts) => Self::Counts(counts.clone()),
             Value::Numbers(numbers) => Self::Numbers(numbers.clone()),
             Value::Word(word) => Self::Word((*word).to_owned()),
             Value::Pairs(pairs) => Self::Rows(pairs.iter().map(|pair| pair.to_vec()).collect()),
@@ -149,11 +202,12 @@ impl From<&Value> for Given {
     }
 }
 
-/// Declared laws by their kinds: `material`, `law` of friction, the keys of dependences in decks,
-/// and `decay`.
+/// All that is declared, by its kind: `generator`, `material`, `law` of friction, the keys of
+/// dependences in decks, and `decay`.
 #[pyfunction]
-pub fn declared_laws() -> Vec<(&'static str, Vec<Law>)> {
+pub fn declarations() -> Vec<(&'static str, Vec<Law>)> {
     vec![
+        ("generator", listed(GENERATORS)),
         ("material", listed(bulk::LAWS)),
         ("law", listed(LAWS)),
         ("by_pressure", listed(BY_PRESSURE)),
@@ -178,20 +232,21 @@ fn told(parameter: &declared::Parameter) -> Parameter {
         Form::Number(_) => ("number", Vec::new(), Vec::new()),
         Form::Numbers(_) => ("numbers", Vec::new(), Vec::new()),
         Form::Word(words) => ("word", words.to_vec(), Vec::new()),
+        Form::Several(..) | Form::Direction => ("several", Vec::new(), Vec::new()),
+        Form::Whole(_) => ("whole", Vec::new(), Vec::new()),
+        Form::Counts(_) => ("counts", Vec::new(), Vec::new()),
         Form::Pairs => ("pairs", Vec::new(), Vec::new()),
         Form::Table(set) => ("table", Vec::new(), vec![of_set(set)]),
         Form::Tables(set) => ("tables", Vec::new(), vec![of_set(set)]),
         Form::OneOf(sets) => ("one_of", Vec::new(), sets.iter().map(of_set).collect()),
     };
-    let (value, default) = match parameter.absent {
-        Absent::Refused | Absent::Nothing => (None, ""),
-        Absent::Number(number) => (Some(Given::Number(number)), ""),
-        Absent::Word(word) => (Some(Given::Word(word.to_owned())), ""),
-        Absent::Computed(text, _) => (None, text),
-    };
-    let bounds = match parameter.form {
-        Form::Number(bounds) | Form::Numbers(bounds) => bounds,
-        _ => &[],
+    let (value, default) = default_of(parameter.absent);
+    let (count, bounds) = match parameter.form {
+        Form::Number(bounds) | Form::Numbers(bounds) => (0, bounds),
+        Form::Several(count, bounds) => (count, bounds),
+        Form::Direction => (3, ANY),
+        Form::Counts(count) => (count, ANY),
+        _ => (0, ANY),
     };
     let bounds = bounds.iter().map(|bound| match *bound {
         Bound::Above(limit) => ("greater than", limit),
@@ -199,6 +254,10 @@ fn told(parameter: &declared::Parameter) -> Parameter {
         Bound::Below(limit) => ("less than", limit),
         Bound::AtMost(limit) => ("at most", limit),
     });
+    let bounds = match parameter.form {
+        Form::Whole(least) => vec![("at least", least as f64)],
+        _ => bounds.collect(),
+    };
     let declared::Parameter {
         name, unit, doc, ..
     } = *parameter;
@@ -206,12 +265,31 @@ fn told(parameter: &declared::Parameter) -> Parameter {
         name,
         form,
         words,
-        bounds: bounds.collect(),
+        count,
+        bounds,
         unit,
         doc,
-        is_required: parameter.is_required(),
+        is_required: parameter.is_required_in_programs(),
+        is_required_in_decks: parameter.is_required(),
         value,
         default,
         sets,
     }
+}
+
+/// The default as a value, else in words.
+fn default_of(absent: Absent) -> (Option<Given>, String) {
+    let value = match absent {
+        Absent::Number(number) => Given::Number(number),
+        Absent::Numbers(numbers) => Given::Numbers(numbers.to_vec()),
+        Absent::Whole(number) => Given::Whole(number),
+        Absent::Counts(counts) => Given::Counts(counts.to_vec()),
+        Absent::Word(word) => Given::Word(word.to_owned()),
+        Absent::InPrograms(absent) => return default_of(*absent),
+        Absent::Refused | Absent::Nothing => return (None, String::new()),
+        Absent::Computed(..) | Absent::Otherwise(_) => {
+            return (None, absent.told().unwrap_or_default());
+        }
+    };
+    (Some(value), String::new())
 }

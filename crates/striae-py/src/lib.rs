@@ -43,11 +43,11 @@ mod _striae {
     use super::{
         cavity::Cavity,
         component::{Contact, Evaluation, Increment, MeshPair, MeshSurface, State},
-        declared::{Parameter, declared_laws},
+        declared::{Parameter, declarations},
         everything::Everything,
         fit::{fit_friction, measurements_of},
         friction::Friction,
-        generate::{annulus, block, capped_block, cylinder, half_cylinder, torus},
+        generate::generated,
         material::Material,
         mesh::{Mesh, read_mesh, read_rigid_surface},
         model::Model,

@@ -1,4 +1,4 @@
-"""Classes of declared laws are those of the library."""
+"""Classes of declared laws and functions of declared generators are those of the library."""
 
 from __future__ import annotations
 
@@ -50,6 +50,17 @@ def test_sets_exclude_each_other() -> None:
         st.Ogden(2.0, bulk_modulus=1e7)  # type: ignore[arg-type]
     with pytest.raises(st.ModelError, match="Ogden: the law has no term"):
         st.Ogden([], bulk_modulus=1e7)
+
+
+def test_tables_of_generators_have_the_keys_of_decks() -> None:
+    ring = st.annulus(divisions=(1, 12, 2), refinement=(20, 3), radial_grading={"lengths": [1]})
+    assert len(ring.cells["hexahedron"]) == 24
+    with pytest.raises(st.ModelError, match="`one_sided` and `symmetric` exclude each other"):
+        st.annulus(axial_grading={"one_sided": 2, "symmetric": 3})
+    with pytest.raises(st.ModelError, match="degrees: it is needed"):
+        st.block(rotation={"axis": (0, 0, 1)})
+    with pytest.raises(TypeError, match="grading: a mapping is needed, not float"):
+        st.block(grading=2.0)  # type: ignore[arg-type]
 
 
 def test_words_of_a_fit_are_those_of_the_law() -> None:

@@ -15,17 +15,19 @@ import striae as st
 
 def test_generators_have_their_volume_and_sets() -> None:
     assert st.block((1, 2, 3), (2, 2, 2)).volume == pytest.approx(6)
-    graded = st.block(divisions=(4, 1, 1), grading={"x": st.Grading.one_sided(8)})
+    graded = st.block(divisions=(4, 1, 1), grading={"x": {"one_sided": 8}})
     x = np.unique(graded.points[:, 0])
     assert (x[-1] - x[-2]) / (x[1] - x[0]) == pytest.approx(8)
-    turned = st.block((2, 1, 1), rotation=((0, 0, 1), 90), about=(0, 0, 0))
+    about = {"axis": (0, 0, 1), "degrees": 90, "about": (0, 0, 0)}
+    turned = st.block((2, 1, 1), rotation=about)
     assert turned.points[:, 1].max() == pytest.approx(2)
     assert set(st.half_cylinder().facet_sets) >= {"ymin", "ymax"}
     assert "zmax" in st.capped_block().facet_sets
-    assert "tetra10" in st.capped_block(element_size=2, cells="tetra10").cells
+    assert "tetra10" in st.capped_block(element_size=2, cells="composite-tetrahedra").cells
     rod = st.cylinder(radius=2, height=3, divisions=(8, 4, 2))
     assert rod.volume == pytest.approx(12 * np.pi, rel=5e-3)
-    assert "xmin" in st.cylinder(quarter=True, grading={"axial": st.Grading.one_sided(2)}).facet_sets
+    quarter = st.cylinder(part="quarter", axial_grading={"symmetric": 2})
+    assert "xmin" in quarter.facet_sets
     seal = st.torus(ring_radius=5, section_radius=1, divisions=(4, 4, 64))
     assert seal.volume == pytest.approx(10 * np.pi**2, rel=1e-2)
     ring = st.annulus(inner_radius=1, outer_radius=2, width=1, divisions=(4, 64, 2))
@@ -299,9 +301,18 @@ def test_grids_of_pyvista_have_the_fields(model: st.Model) -> None:
     assert st.Mesh.of(blocks["pad"]).volume == pytest.approx(blocks["pad"].volume)
 
 
-@pytest.mark.parametrize("kind", ["hexahedron", "wedge", "pyramid", "tetra", "tetra10"])
-def test_meshes_of_all_kinds_of_cells_are_pressed(kind: Any) -> None:
-    made = st.block(divisions=(2, 2, 2), cells=kind)
+@pytest.mark.parametrize(
+    ("word", "kind"),
+    [
+        ("hexahedra", "hexahedron"),
+        ("wedges", "wedge"),
+        ("pyramids", "pyramid"),
+        ("tetrahedra", "tetra"),
+        ("composite-tetrahedra", "tetra10"),
+    ],
+)
+def test_meshes_of_all_kinds_of_cells_are_pressed(word: Any, kind: str) -> None:
+    made = st.block(divisions=(2, 2, 2), cells=word)
     assert list(made.cells) == [kind]
     assert made.volume == pytest.approx(1, rel=1e-14)
     again = st.Mesh(made.points, made.cells, facet_sets=made.facet_sets, node_sets=made.node_sets)
@@ -315,7 +326,7 @@ def test_meshes_of_all_kinds_of_cells_are_pressed(kind: Any) -> None:
 
 
 def test_triangles_are_facets_in_any_order() -> None:
-    made = st.block(cells="tetra")
+    made = st.block(cells="tetrahedra")
     top = made.facet_sets["zmax"]
     assert (top[:, 2] == top[:, 3]).all()
     again = made.with_sets(facets={"lid": np.roll(top[:, :3], 1, axis=1)})
@@ -446,7 +457,7 @@ def test_advice_is_that_of_the_program(model: st.Model) -> None:
     named = [remark for remark in advice.notes if remark.name == "pad"]
     assert any("volume" in remark.text for remark in named)
     stiff = st.NeoHookean(youngs_modulus=1e6, poissons_ratio=0.4999)
-    body = st.Body("pad", st.block(cells="tetra", divisions=(2, 2, 2)), stiff)
+    body = st.Body("pad", st.block(cells="tetrahedra", divisions=(2, 2, 2)), stiff)
     floor = st.Plane("floor", point=(0, 0, -100))
     far = st.Model([body], [floor], [st.Pair(body["zmin"], floor)])
     far.step("hold", body["zmax"].hold())

@@ -128,8 +128,8 @@ MODEL_ERRORS: list[tuple[Callable[[], Any], str]] = [
         "divisions: integers are needed, but the array has dtype float64",
     ),
     (
-        lambda: st.block(grading={"w": st.Grading.one_sided(2)}),
-        "grading: the keys are ['x', 'y', 'z'], but there is ['w']",
+        lambda: st.block(grading={"w": {"one_sided": 2}}),
+        "grading: its keys are `x`, `y`, `z`, but there is `w`",
     ),
     (
         lambda: st.read_mesh("a.obj"),

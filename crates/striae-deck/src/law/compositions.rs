@@ -89,11 +89,16 @@ fn spaced(one: &str, other: &str) -> String {
 /// Returns the form of a value in decks.
 pub(super) fn form(of: declared::Form) -> Form {
     let list = |of| Form::List(Box::new(of), None);
+    let several = |of, count| Form::List(Box::new(of), Some(count));
     match of {
         declared::Form::Number(bounds) => Form::Number(bounds),
         declared::Form::Numbers(bounds) => list(Form::Number(bounds)),
+        declared::Form::Several(count, bounds) => several(Form::Number(bounds), count),
+        declared::Form::Direction => several(Form::Number(declared::ANY), 3),
+        declared::Form::Whole(least) => Form::Whole(least),
+        declared::Form::Counts(count) => several(Form::Whole(1), count),
         declared::Form::Word(words) => Form::Words(words.to_vec()),
-        declared::Form::Pairs => list(Form::List(Box::new(Form::Number(declared::ANY)), Some(2))),
+        declared::Form::Pairs => list(several(Form::Number(declared::ANY), 2)),
         declared::Form::Table(set) => Form::Table(of_set(set)),
         declared::Form::Tables(set) => list(Form::Table(of_set(set))),
         declared::Form::OneOf(sets) => Form::Table(sets.iter().flat_map(of_set).collect()),

@@ -1,13 +1,15 @@
 //! Parameters of a law as read from a table.
 
-use striae_declared::{Declared, Form, Kind, Parameter, Value, Values};
+use striae_declared::{ANY, Bound, Declared, Form, Kind, Parameter, Value, Values};
 
 use super::compositions::{form, of_set};
 use crate::{
     faults::{FaultList, Span},
-    read::{self, Place, Read, TableReader, read_table_as},
-    value::{All, Number, number, numbers, tables, word},
+    read::{self, Place, Read, TableReader, read_table_as, unexpected},
+    value::{All, Number, number, numbers, tables, whole, word},
 };
+use striae_model::FaultKind as ModelFault;
+use toml::de::DeValue;
 
 /// A law by its name, with the values of its parameters but after faults.
 #[derive(Clone, Debug)]
@@ -105,6 +107,9 @@ fn read_as(
     Some(match of {
         Form::Number(bounds) => number(value, place, faults, bounds)?.into(),
         Form::Numbers(bounds) => numbers(value, place, faults, bounds)?.into(),
+        Form::Several(..) | Form::Direction | Form::Whole(_) | Form::Counts(_) => {
+            counted(of, value, place, faults)?
+        }
         Form::Word(words) => {
             let names: Vec<&'static str> = words.iter().map(|(name, _)| *name).collect();
             names[word(value, place, faults, &names)?].into()
@@ -120,4 +125,57 @@ fn read_as(
         Form::Tables(set) => tables(value, place, faults, &form(of), table(set.parameters))?.into(),
         Form::OneOf(_) => return None,
     })
+}
+
+/// Returns a whole number, or as many numbers as stated.
+fn counted(
+    of: Form,
+    value: &read::Value<'_>,
+    place: &Place,
+    faults: &mut FaultList<'_>,
+) -> Option<Value> {
+    let numbers = |count: usize, bounds: &'static [Bound], faults: &mut FaultList<'_>| {
+        several(count, of, value, place, faults, |value, place, faults| {
+            number(value, place, faults, bounds)
+        })
+    };
+    Some(match of {
+        Form::Several(count, bounds) => numbers(count, bounds, faults)?.into(),
+        Form::Direction => {
+            let direction = numbers(3, ANY, faults)?;
+            if direction.iter().all(|component| *component == 0.0) {
+                let place = place.to_string();
+                faults.push(&value.span(), ModelFault::ZeroVector { place });
+                return None;
+            }
+            direction.into()
+        }
+        Form::Whole(least) => whole(value, place, faults, least)?.into(),
+        Form::Counts(count) => {
+            let counts = several(count, of, value, place, faults, |value, place, faults| {
+                whole(value, place, faults, 1)
+            });
+            counts?.as_slice().into()
+        }
+        _ => return None,
+    })
+}
+
+/// Returns so many elements of a list; nothing after a fault of any.
+fn several<T>(
+    count: usize,
+    of: Form,
+    value: &read::Value<'_>,
+    place: &Place,
+    faults: &mut FaultList<'_>,
+    read: impl Fn(&read::Value<'_>, &Place, &mut FaultList<'_>) -> Option<T>,
+) -> Option<Vec<T>> {
+    let array = match value.get_ref() {
+        DeValue::Array(array) if array.len() == count => array,
+        _ => return unexpected(value, place, faults, &form(of)),
+    };
+    let place = place.element();
+    // All are read, so that all faults are noted.
+    let all = array.iter().map(|value| read(value, &place, faults));
+    all.collect::<Vec<_>>().into_iter().collect()
 }

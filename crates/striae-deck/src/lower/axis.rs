@@ -1,6 +1,5 @@
 //! Axes and angles.
 
-use super::generator::nonzero;
 use crate::{
     faults::FaultList,
     raw,
@@ -8,6 +7,7 @@ use crate::{
     value::{Number, vector},
 };
 use striae_mesh::Vec3;
+use striae_model::FaultKind as ModelFault;
 use striae_surface::texture::Axis;
 
 /// An axis in space.
@@ -24,6 +24,25 @@ pub(super) fn axis(raw: &At<raw::Axis>, faults: &mut FaultList<'_>) -> Option<Ax
             faults,
         )?,
     })
+}
+
+/// A vector that is not zero.
+pub(super) fn nonzero(
+    raw: &At<[Number; 3]>,
+    place: &str,
+    faults: &mut FaultList<'_>,
+) -> Option<Vec3> {
+    let vector = vector(&raw.value);
+    if vector.norm() > 0.0 {
+        return Some(vector);
+    }
+    faults.push(
+        &raw.span,
+        ModelFault::ZeroVector {
+            place: place.into(),
+        },
+    );
+    None
 }
 
 /// An angle, 0 where none is stated.

@@ -2,8 +2,8 @@
 
 use super::{
     admissible::admissible,
+    axis::nonzero,
     axis::{axis, degrees},
-    generator::nonzero,
 };
 use crate::{faults::FaultList, raw, read::At, value::Number};
 use striae_law::bulk::{Direction, FibreStiffness, Fibres, Fibrous, LinesAbout, Material};

@@ -1,6 +1,5 @@
 //! Meshes of bodies and rigid surfaces, generated, read or written in the deck.
 
-use super::generator;
 use crate::{
     fault::FaultKind,
     faults::{FaultList, Span},
@@ -9,7 +8,7 @@ use crate::{
     value::{Text, vector},
 };
 use std::path::{Path, PathBuf};
-use striae_mesh::generate::MOST_ELEMENTS;
+use striae_mesh::generate::{Generate, Generator, MOST_ELEMENTS};
 use striae_mesh::{CellBlock, CellKind, Mesh, NodeId, Vec3};
 use striae_meshfile::{self as mesh_file, MeshFileError, MeshFileFault, Reading};
 use striae_model::{FaultKind as ModelFault, nearest};
@@ -32,7 +31,7 @@ pub(super) fn body_mesh(
     faults: &mut FaultList<'_>,
 ) -> Option<Reading> {
     let owner = format!("body `{body}`");
-    let mesh = match &raw.value {
+    let mesh: Option<Mesh> = match &raw.value {
         raw::Mesh::File(file) => {
             let part = file.elements.as_ref();
             let name = part.map(|part| part.value.0.as_str());
@@ -41,7 +40,10 @@ pub(super) fn body_mesh(
         }
         raw::Mesh::Inline(mesh) => inline_mesh(mesh, owner, &raw.span, faults),
         raw::Mesh::Generated(generator) => {
-            let generator = generator::Generator::new(generator, faults)?;
+            let generator = match generator.made(&raw.span)? {
+                Ok(generator) => generator,
+                Err((refusal, span)) => return made(Err(refusal), owner, &span, faults),
+            };
             if let Some(kind) = too_large(&generator, body) {
                 faults.push(&raw.span, kind);
                 return None;
@@ -53,7 +55,7 @@ pub(super) fn body_mesh(
 }
 
 /// The fault that a mesh would take more memory than there is, told before it is taken.
-fn too_large(generator: &generator::Generator, body: &str) -> Option<FaultKind> {
+fn too_large(generator: &Generator, body: &str) -> Option<FaultKind> {
     // More than a generator makes is a fault of its own.
     let elements = generator
         .elements()

@@ -15,7 +15,6 @@ mod fibres;
 mod formulation;
 mod friction;
 mod function;
-mod generator;
 mod inertia;
 mod listed;
 mod material;

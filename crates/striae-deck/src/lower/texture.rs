@@ -1,8 +1,7 @@
 //! Textures of the sides of a pair, and whether friction finds those it needs.
 
 use super::{
-    axis::{axis, degrees},
-    generator::nonzero,
+    axis::{axis, degrees, nonzero},
     nodal,
     surfaces::Surfaces,
 };

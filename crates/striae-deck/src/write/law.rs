@@ -61,6 +61,8 @@ fn stated_value(value: &Value) -> String {
     match value {
         Value::Number(value) => number(*value),
         Value::Numbers(values) => numbers(values),
+        Value::Whole(number) => number.to_string(),
+        Value::Counts(counts) => list(counts.iter().map(usize::to_string)),
         Value::Word(word) => text(word),
         Value::Pairs(pairs) => list(pairs.iter().map(|pair| numbers(pair))),
         Value::Table(values) => table(values),

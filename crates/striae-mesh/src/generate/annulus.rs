@@ -7,33 +7,98 @@
 //! form with a closed inverse.
 
 use super::Grading;
+use super::generator::{Generate, Generator, lattice_nodes, product};
+use super::grading::{EQUAL, GRADING};
 use super::grid::{Closure, Grid, Side, all_positive, goes_around, named_mesh};
 use crate::{Face, Mesh, MeshError, Vec3};
 use nalgebra::Rotation3;
 use std::f64::consts::PI;
+use striae_declared::{
+    Absent, Bound, Declared, LENGTH, NO_UNIT, NOT_NEGATIVE, POSITIVE, Parameter, Set, Values,
+};
+
+/// The generator.
+pub static ANNULUS: Declared<Generator> = Declared {
+    name: "annulus",
+    summary: "A ring about an axis. Sets of nodes and facets: `rim` inside, `tread` outside, the plane sides `ymin`, `ymax` and both of them, `sides`.",
+    parameters: &[
+        Parameter::position("centre", "Centre of the ring."),
+        Parameter::direction("axis", "Axis of any length.").or(Absent::Numbers(&[0.0, 1.0, 0.0])),
+        Parameter::number("inner_radius", POSITIVE, LENGTH, "Inner radius.")
+            .or_in_programs(&Absent::Number(0.2)),
+        Parameter::number("outer_radius", POSITIVE, LENGTH, "Outer radius.")
+            .or_in_programs(&Absent::Number(0.5)),
+        Parameter::number("width", POSITIVE, LENGTH, "Width along the axis.")
+            .or_in_programs(&Absent::Number(0.4)),
+        Parameter::counts(
+            "divisions",
+            3,
+            "Elements along the radius, the circumference and the axis.",
+        )
+        .or_in_programs(&Absent::Counts(&[3, 48, 4])),
+        Parameter::table(
+            "radial_grading",
+            &GRADING,
+            "Interval lengths from the inner to the outer radius.",
+        )
+        .or(EQUAL),
+        Parameter::table(
+            "axial_grading",
+            &GRADING,
+            "Interval lengths along the axis.",
+        )
+        .or(EQUAL),
+        Parameter::table(
+            "refinement",
+            &REFINEMENT,
+            "Smaller elements around the lowest point.",
+        )
+        .or(Absent::Nothing),
+    ],
+    build: |values| Ok(Generator::of(Annulus::stated(values))),
+    fit: None,
+};
+
+static REFINEMENT: Set = Set {
+    doc: "Smaller elements around the lowest point of a ring.",
+    parameters: &[
+        Parameter::number(
+            "half_angle",
+            NOT_NEGATIVE,
+            "degrees",
+            "Angle to either side of the lowest point within which the size is smallest.",
+        ),
+        Parameter::number(
+            "ratio",
+            &[Bound::AtLeast(1.0)],
+            NO_UNIT,
+            "Size at the highest point over the size at the lowest.",
+        ),
+    ],
+};
 
 /// A ring with sides `rim` (inside), `tread` (outside), `ymin`, `ymax` (the
-/// two plane sides, named for the default axis) and `sides` (both).
+/// two plane sides, named for the default axis) and `sides` (both). Defaults are those of [`ANNULUS`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Annulus {
-    /// Middle of the ring; default the origin.
+    /// Middle of the ring.
     pub centre: Vec3,
-    /// Axis, of any length but zero; default `y`. Another axis turns the ring
+    /// Axis, of any length but zero. One other than `y` turns the ring
     /// by the shortest way, a horizontal one leaves the lowest point lowest.
     pub axis: Vec3,
-    /// Inner radius; default 0.2.
+    /// Inner radius.
     pub inner_radius: f64,
-    /// Outer radius; default 0.5.
+    /// Outer radius.
     pub outer_radius: f64,
-    /// Extent along the axis; default 0.4.
+    /// Extent along the axis.
     pub width: f64,
-    /// Elements along radius, circumference (at least 3) and axis; default 3, 48, 4.
+    /// Elements along radius, circumference (at least 3) and axis.
     pub divisions: [usize; 3],
-    /// Interval lengths from the inner to the outer radius; default uniform.
+    /// Interval lengths from the inner to the outer radius.
     pub radial_grading: Grading,
-    /// Interval lengths along the axis; default uniform.
+    /// Interval lengths along the axis.
     pub axial_grading: Grading,
-    /// Smaller elements around the lowest point; default none.
+    /// Smaller elements around the lowest point.
     pub refinement: Option<Refinement>,
 }
 
@@ -49,21 +114,43 @@ pub struct Refinement {
 
 impl Default for Annulus {
     fn default() -> Self {
-        Self {
-            centre: Vec3::zeros(),
-            axis: Vec3::y(),
-            inner_radius: 0.2,
-            outer_radius: 0.5,
-            width: 0.4,
-            divisions: [3, 48, 4],
-            radial_grading: Grading::Uniform,
-            axial_grading: Grading::Uniform,
-            refinement: None,
-        }
+        Self::stated(&ANNULUS.completed(&Values::default()))
+    }
+}
+
+impl Generate for Annulus {
+    fn mesh(&self) -> Result<Mesh, MeshError> {
+        self.mesh()
+    }
+
+    fn elements(&self) -> Option<u128> {
+        Some(product(&self.divisions))
+    }
+
+    fn nodes(&self) -> Option<u128> {
+        Some(lattice_nodes(&self.divisions))
     }
 }
 
 impl Annulus {
+    fn stated(values: &Values) -> Self {
+        let refinement = values.table_if_any("refinement");
+        Self {
+            centre: values.array("centre").into(),
+            axis: values.array("axis").into(),
+            inner_radius: values.number("inner_radius"),
+            outer_radius: values.number("outer_radius"),
+            width: values.number("width"),
+            divisions: values.counts("divisions"),
+            radial_grading: Grading::stated(values.table_if_any("radial_grading")),
+            axial_grading: Grading::stated(values.table_if_any("axial_grading")),
+            refinement: refinement.map(|values| Refinement {
+                half_angle: values.number("half_angle"),
+                ratio: values.number("ratio"),
+            }),
+        }
+    }
+
     /// The mesh.
     ///
     /// # Errors

@@ -17,41 +17,116 @@
 //!
 //! Cells of other kinds are made by dividing the hexahedra.
 
+use super::Grading;
+use super::division::{CELLS, Division, cells, parts};
+use super::generator::{Generate, Generator, lattice_nodes, product};
+use super::grading::{EQUAL, GRADING};
 use super::grid::{Closure, Grid, Side, named_mesh};
-use super::{Grading, division::Division};
 use crate::random::Random;
 use crate::{CellKind, Mesh, MeshError, Vec3};
 use nalgebra::{Rotation3, Unit};
+use striae_declared::{
+    ANY, Absent, Bound, Declared, LENGTH, NO_UNIT, POSITIVE, Parameter, Set, Values,
+};
+
+/// The generator.
+pub static BLOCK: Declared<Generator> = Declared {
+    name: "block",
+    summary: "A block. Sets of nodes and facets: `xmin`, `xmax`, `ymin`, `ymax`, `zmin`, `zmax`, named before rotation.",
+    parameters: &[
+        Parameter::position(
+            "origin",
+            "Its corner of smallest coordinates, before rotation.",
+        ),
+        Parameter::several("size", 3, POSITIVE, LENGTH, "Edge lengths.")
+            .or_in_programs(&Absent::Numbers(&[1.0; 3])),
+        Parameter::counts("divisions", 3, "Hexahedra along the edges.")
+            .or_in_programs(&Absent::Counts(&[1; 3])),
+        CELLS,
+        Parameter::table("grading", &GRADINGS, "Interval lengths along the edges.").or(EQUAL),
+        Parameter::table("rotation", &ROTATION, "Rotation of the whole block.").or(Absent::Nothing),
+        Parameter::number(
+            "mesh_rotation",
+            ANY,
+            "degrees",
+            "Angle by which the mesh is rotated about the third axis inside the unchanged outline; elements stay well shaped up to about 25.",
+        )
+        .or(Absent::Number(0.0)),
+        Parameter::several(
+            "bottom_slopes",
+            2,
+            ANY,
+            NO_UNIT,
+            "Slopes of the lower side along the first two axes.",
+        )
+        .or(Absent::Numbers(&[0.0; 2])),
+        Parameter::several(
+            "top_slopes",
+            2,
+            ANY,
+            NO_UNIT,
+            "Slopes of the upper side along the first two axes.",
+        )
+        .or(Absent::Numbers(&[0.0; 2])),
+        Parameter::number(
+            "irregularity",
+            &[Bound::AtLeast(0.0), Bound::Below(0.5)],
+            NO_UNIT,
+            "Random displacement of inner nodes as a fraction of the local interval; elements stay well shaped up to about 0.25.",
+        )
+        .or(Absent::Number(0.0)),
+        Parameter::whole("seed", 0, "Seed of the random displacement.").or(Absent::Whole(0)),
+    ],
+    build: |values| Ok(Generator::of(Block::stated(values))),
+    fit: None,
+};
+
+static GRADINGS: Set = Set {
+    doc: "Interval lengths along the three axes.",
+    parameters: &[
+        Parameter::table("x", &GRADING, "Along the first axis.").or(EQUAL),
+        Parameter::table("y", &GRADING, "Along the second axis.").or(EQUAL),
+        Parameter::table("z", &GRADING, "Along the third axis.").or(EQUAL),
+    ],
+};
+
+static ROTATION: Set = Set {
+    doc: "Rotation of a body.",
+    parameters: &[
+        Parameter::direction("axis", "Axis of any length."),
+        Parameter::number("degrees", ANY, "degrees", "Angle by the right-hand rule."),
+        Parameter::position("about", "Fixed point of the rotation.")
+            .or(Absent::Otherwise("the centre of the body")),
+    ],
+};
 
 /// A box of cells with sides `xmin xmax ymin ymax zmin zmax`, named before
-/// rotation.
+/// rotation. Defaults are those of [`BLOCK`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Block {
-    /// Corner with the smallest coordinates, before rotation; default 0.
+    /// Corner with the smallest coordinates, before rotation.
     pub origin: Vec3,
-    /// Lengths of the edges; default 1.
+    /// Lengths of the edges.
     pub size: Vec3,
-    /// Number of hexahedra along `x, y, z`; default 1.
+    /// Number of hexahedra along `x, y, z`.
     pub divisions: [usize; 3],
-    /// Kind of cell that the hexahedra are divided into; hexahedra by default. Wedges extend along
-    /// `z`.
+    /// Kind of cell that the hexahedra are divided into. Wedges extend along `z`.
     pub cells: CellKind,
-    /// Interval lengths along `x, y, z`; default uniform.
+    /// Interval lengths along `x, y, z`.
     pub gradings: [Grading; 3],
-    /// Rotation of the whole block; default none.
+    /// Rotation of the whole block.
     pub rotation: Option<Rotation>,
     /// Angle in degrees by which the mesh turns about `z` inside the unchanged
-    /// outline: fully at the middle, not at all at the outline; default 0,
-    /// elements stay well shaped up to about 25.
+    /// outline: fully at the middle, not at all at the outline.
     pub mesh_rotation: f64,
-    /// Slopes `[dz/dx, dz/dy]` of the lower side about its middle; default 0.
+    /// Slopes `[dz/dx, dz/dy]` of the lower side about its middle.
     pub bottom_slopes: [f64; 2],
-    /// Slopes `[dz/dx, dz/dy]` of the upper side about its middle; default 0.
+    /// Slopes `[dz/dx, dz/dy]` of the upper side about its middle.
     pub top_slopes: [f64; 2],
     /// Largest random displacement of nodes as a fraction of the local interval,
-    /// in `[0, 0.5)`; default 0, elements stay well shaped up to about 0.25.
+    /// in `[0, 0.5)`.
     pub irregularity: f64,
-    /// Seed of the random displacement; default 0.
+    /// Seed of the random displacement.
     pub seed: u64,
 }
 
@@ -77,23 +152,44 @@ pub enum Pivot {
 
 impl Default for Block {
     fn default() -> Self {
-        Self {
-            origin: Vec3::zeros(),
-            size: Vec3::repeat(1.0),
-            divisions: [1; 3],
-            cells: CellKind::Hexahedron,
-            gradings: Default::default(),
-            rotation: None,
-            mesh_rotation: 0.0,
-            bottom_slopes: [0.0; 2],
-            top_slopes: [0.0; 2],
-            irregularity: 0.0,
-            seed: 0,
-        }
+        Self::stated(&BLOCK.completed(&Values::default()))
+    }
+}
+
+impl Generate for Block {
+    fn mesh(&self) -> Result<Mesh, MeshError> {
+        self.mesh()
+    }
+
+    fn elements(&self) -> Option<u128> {
+        let parts = parts(self.cells) as u128;
+        Some(product(&self.divisions).saturating_mul(parts))
+    }
+
+    fn nodes(&self) -> Option<u128> {
+        Some(lattice_nodes(&self.divisions))
     }
 }
 
 impl Block {
+    fn stated(values: &Values) -> Self {
+        let gradings = values.table_if_any("grading");
+        let along = |axis| Grading::stated(gradings.and_then(|all| all.table_if_any(axis)));
+        Self {
+            origin: values.array("origin").into(),
+            size: values.array("size").into(),
+            divisions: values.counts("divisions"),
+            cells: cells(values),
+            gradings: ["x", "y", "z"].map(along),
+            rotation: values.table_if_any("rotation").map(Rotation::stated),
+            mesh_rotation: values.number("mesh_rotation"),
+            bottom_slopes: values.array("bottom_slopes"),
+            top_slopes: values.array("top_slopes"),
+            irregularity: values.number("irregularity"),
+            seed: values.whole("seed") as u64,
+        }
+    }
+
     /// The mesh.
     ///
     /// # Errors
@@ -190,6 +286,17 @@ impl Block {
         };
         let axis = Unit::new_normalize(rotation.axis);
         fixed + Rotation3::from_axis_angle(&axis, rotation.degrees.to_radians()) * (x - fixed)
+    }
+}
+
+impl Rotation {
+    fn stated(values: &Values) -> Self {
+        let about = values.array_if_any("about");
+        Self {
+            axis: values.array("axis").into(),
+            degrees: values.number("degrees"),
+            about: about.map_or(Pivot::Centre, |point: [f64; 3]| Pivot::Point(point.into())),
+        }
     }
 }
 

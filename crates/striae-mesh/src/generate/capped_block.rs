@@ -10,35 +10,109 @@
 //! Cells of other kinds are made by dividing the hexahedra at `(x, y, s)`, so that nodes in
 //! the middles of edges lie on the sphere as well.
 
-use super::division::Division;
+use super::division::{CELLS, Division, cells, parts};
+use super::generator::{Generate, Generator, product};
 use super::grading::{mirrored, refined_lengths, unit_partial_sums};
 use super::grid::{Closure, Grid, Side, named_mesh};
 use crate::{CellKind, Mesh, MeshError, Vec3};
+use striae_declared::{
+    Absent, Bound, Declared, LENGTH, NO_UNIT, NOT_NEGATIVE, POSITIVE, Parameter, Values,
+};
 
-/// A block on a spherical cap, with sides `xmin xmax ymin ymax cap zmax`.
+/// The generator.
+pub static CAPPED_BLOCK: Declared<Generator> = Declared {
+    name: "capped-block",
+    summary: "A block whose lower side is a spherical cap, finer around its lowest point. Sets of nodes and facets: `xmin`, `xmax`, `ymin`, `ymax`, `cap`, `zmax`.",
+    parameters: &[
+        Parameter::position("apex", "Lowest point."),
+        Parameter::several(
+            "size",
+            2,
+            POSITIVE,
+            LENGTH,
+            "Edge lengths along the first two axes.",
+        )
+        .or_in_programs(&Absent::Numbers(&[10.0; 2])),
+        Parameter::number(
+            "height",
+            POSITIVE,
+            LENGTH,
+            "Height from the lowest point to the upper side.",
+        )
+        .or_in_programs(&Absent::Number(6.5)),
+        Parameter::number("radius", POSITIVE, LENGTH, "Radius of the sphere.")
+            .or_in_programs(&Absent::Number(12.0)),
+        Parameter::number(
+            "element_size",
+            POSITIVE,
+            LENGTH,
+            "Element size at the lowest point.",
+        )
+        .or_in_programs(&Absent::Number(0.8)),
+        Parameter::number(
+            "fine_half_width",
+            NOT_NEGATIVE,
+            LENGTH,
+            "Half the width of the zone with elements of this size.",
+        )
+        .or(Absent::Computed("2 element_size", |values| {
+            2.0 * values.number("element_size")
+        })),
+        Parameter::number(
+            "fine_depth",
+            NOT_NEGATIVE,
+            LENGTH,
+            "Depth of the zone with elements of this size.",
+        )
+        .or(Absent::Number(0.0)),
+        Parameter::number(
+            "growth",
+            &[Bound::AtLeast(1.0)],
+            NO_UNIT,
+            "Largest ratio of neighbouring sizes outside that zone.",
+        )
+        .or(Absent::Number(1.3)),
+        Parameter::word(
+            "part",
+            &[
+                ("whole", "The whole block."),
+                (
+                    "half",
+                    "The half on the positive side of the second axis; `ymin` is then the plane of symmetry.",
+                ),
+            ],
+            "Part of it that is meshed.",
+        ),
+        CELLS,
+    ],
+    build: |values| Ok(Generator::of(CappedBlock::stated(values))),
+    fit: None,
+};
+
+/// A block on a spherical cap, with sides `xmin xmax ymin ymax cap zmax`. Defaults are those of
+/// [`CAPPED_BLOCK`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct CappedBlock {
-    /// Lowest point; default the origin.
+    /// Lowest point.
     pub apex: Vec3,
-    /// Edges of the plan along `x` and `y`; default 10 x 10.
+    /// Edges of the plan along `x` and `y`.
     pub size: [f64; 2],
-    /// From the apex to the upper side; default 6.5.
+    /// From the apex to the upper side.
     pub height: f64,
-    /// Radius of the sphere; default 12.
+    /// Radius of the sphere.
     pub radius: f64,
-    /// Element size at the apex; default 0.8.
+    /// Element size at the apex.
     pub element_size: f64,
     /// Half edge of the square around the apex with elements of this size in
-    /// plan; default 1.6.
+    /// plan.
     pub fine_half_width: f64,
-    /// Depth to which elements have this height at the apex; default 0.
+    /// Depth to which elements have this height at the apex.
     pub fine_depth: f64,
-    /// Largest ratio of neighbouring sizes outside; default 1.3.
+    /// Largest ratio of neighbouring sizes outside.
     pub growth: f64,
-    /// Part of the block that is meshed; all of it by default.
+    /// Part of the block that is meshed.
     pub part: Part,
-    /// Kind of cell that the hexahedra are divided into; hexahedra by default. Wedges extend along
-    /// `z`.
+    /// Kind of cell that the hexahedra are divided into. Wedges extend along `z`.
     pub cells: CellKind,
 }
 
@@ -53,18 +127,20 @@ pub enum Part {
 
 impl Default for CappedBlock {
     fn default() -> Self {
-        Self {
-            apex: Vec3::zeros(),
-            size: [10.0; 2],
-            height: 6.5,
-            radius: 12.0,
-            element_size: 0.8,
-            fine_half_width: 1.6,
-            fine_depth: 0.0,
-            growth: 1.3,
-            part: Part::Whole,
-            cells: CellKind::Hexahedron,
-        }
+        Self::stated(&CAPPED_BLOCK.completed(&Values::default()))
+    }
+}
+
+impl Generate for CappedBlock {
+    fn mesh(&self) -> Result<Mesh, MeshError> {
+        self.mesh()
+    }
+
+    fn elements(&self) -> Option<u128> {
+        let [x, y] = self.plan_lengths().ok()?;
+        let z = refined_lengths(self.height, self.fine_depth, self.element_size, self.growth);
+        let hexahedra = product(&[x.len(), y.len(), z.ok()?.len()]);
+        Some(hexahedra.saturating_mul(parts(self.cells) as u128))
     }
 }
 
@@ -72,6 +148,24 @@ impl Default for CappedBlock {
 const FLAT: f64 = 1e-6;
 
 impl CappedBlock {
+    fn stated(values: &Values) -> Self {
+        Self {
+            apex: values.array("apex").into(),
+            size: values.array("size"),
+            height: values.number("height"),
+            radius: values.number("radius"),
+            element_size: values.number("element_size"),
+            fine_half_width: values.number("fine_half_width"),
+            fine_depth: values.number("fine_depth"),
+            growth: values.number("growth"),
+            part: match values.word("part") {
+                "half" => Part::Half,
+                _ => Part::Whole,
+            },
+            cells: cells(values),
+        }
+    }
+
     /// The mesh.
     ///
     /// # Errors

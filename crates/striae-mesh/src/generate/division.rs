@@ -9,6 +9,32 @@
 use std::collections::HashMap;
 
 use crate::{CellBlock, CellKind, ElementId, Face, NodeId, Vec3, mesh::face_nodes};
+use striae_declared::{Parameter, Values};
+
+/// Kind of cells; [`cells`] reads it.
+pub(super) const CELLS: Parameter = Parameter::word(
+    "cells",
+    &[
+        ("hexahedra", "Hexahedra with eight nodes, not divided."),
+        (
+            "wedges",
+            "Wedges with six nodes, two in each hexahedron, along the third axis.",
+        ),
+        (
+            "pyramids",
+            "Pyramids with five nodes, six in each hexahedron.",
+        ),
+        (
+            "tetrahedra",
+            "Tetrahedra with four nodes, six in each hexahedron.",
+        ),
+        (
+            "composite-tetrahedra",
+            "Tetrahedra with ten nodes, six in each hexahedron, each linear in twelve parts.",
+        ),
+    ],
+    "Kind of cells that the hexahedra are divided into.",
+);
 
 const WEDGES: [[usize; 6]; 2] = [[0, 1, 2, 4, 5, 6], [0, 2, 3, 4, 6, 7]];
 const TETRAHEDRA: [[usize; 4]; 6] = [
@@ -19,6 +45,26 @@ const TETRAHEDRA: [[usize; 4]; 6] = [
     [0, 4, 5, 6],
     [0, 7, 4, 6],
 ];
+
+/// The kind of cells that values of [`CELLS`] state.
+pub(super) fn cells(values: &Values) -> CellKind {
+    match values.word(CELLS.name) {
+        "wedges" => CellKind::Wedge,
+        "pyramids" => CellKind::Pyramid,
+        "tetrahedra" => CellKind::Tetrahedron,
+        "composite-tetrahedra" => CellKind::CompositeTetrahedron,
+        _ => CellKind::Hexahedron,
+    }
+}
+
+/// Number of cells that a hexahedron is divided into.
+pub(super) fn parts(kind: CellKind) -> usize {
+    match kind {
+        CellKind::Hexahedron => 1,
+        CellKind::Wedge => 2,
+        _ => 6,
+    }
+}
 
 /// Hexahedra and what they are divided into.
 pub(super) struct Division {

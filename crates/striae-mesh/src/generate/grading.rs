@@ -4,6 +4,47 @@
 //! length of the edge, and the nodes lie at their partial sums.
 
 use crate::MeshError;
+use striae_declared::{Absent, NO_UNIT, POSITIVE, Parameter, Set, Values};
+
+/// Parameters of a [`Grading`].
+pub(super) static GRADING: Set = Set {
+    doc: "Interval lengths along an edge.",
+    parameters: &[Parameter::one_of(
+        "intervals",
+        &[
+            Set {
+                doc: "A geometric sequence from one end to the other.",
+                parameters: &[Parameter::number(
+                    "one_sided",
+                    POSITIVE,
+                    NO_UNIT,
+                    "Last length over the first.",
+                )],
+            },
+            Set {
+                doc: "A geometric sequence from both ends to the middle.",
+                parameters: &[Parameter::number(
+                    "symmetric",
+                    POSITIVE,
+                    NO_UNIT,
+                    "Length in the middle over the length at the ends.",
+                )],
+            },
+            Set {
+                doc: "Chosen lengths.",
+                parameters: &[Parameter::numbers(
+                    "lengths",
+                    POSITIVE,
+                    NO_UNIT,
+                    "One length a division, up to a common factor.",
+                )],
+            },
+        ],
+    )],
+};
+
+/// Equal lengths where there is no grading.
+pub(super) const EQUAL: Absent = Absent::Otherwise("equal");
 
 /// Lengths of the intervals along an edge.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -27,6 +68,19 @@ pub enum Grading {
 }
 
 impl Grading {
+    /// The grading that a table of [`GRADING`] states; equal lengths if there is none.
+    pub(super) fn stated(table: Option<&Values>) -> Self {
+        let Some(table) = table else {
+            return Self::Uniform;
+        };
+        let ratio = |name| table.number_if_any(name);
+        match (ratio("one_sided"), ratio("symmetric")) {
+            (Some(ratio), _) => Self::OneSided { ratio },
+            (_, Some(ratio)) => Self::Symmetric { ratio },
+            _ => Self::Lengths(table.numbers("lengths").to_vec()),
+        }
+    }
+
     /// Positions of the `divisions + 1` nodes on an edge from 0 to 1.
     ///
     /// # Errors

@@ -7,32 +7,94 @@
 
 mod half_disc;
 
+use super::generator::{Generate, Generator, product};
 use super::grid::{all_positive, check_element_count, named_mesh};
 use crate::{CellBlock, ElementId, Face, Mesh, MeshError, NodeId, Vec3};
 use half_disc::HalfDisc;
+use striae_declared::{
+    Absent, Bound, Declared, LENGTH, NO_UNIT, NOT_NEGATIVE, POSITIVE, Parameter, Values,
+};
 
-/// A slice of a half cylinder along `y`, with sides `flat`, `arc`, `ymin`, `ymax`.
+/// The generator.
+pub static HALF_CYLINDER: Declared<Generator> = Declared {
+    name: "half-cylinder",
+    summary: "A slice of a half cylinder along the second axis, finer around the contact point. Sets of nodes and facets: `flat`, `arc`, `ymin`, `ymax`.",
+    parameters: &[
+        Parameter::position(
+            "apex",
+            "Contact point in the side `ymin`: lowest of the lower half, highest of the upper half.",
+        ),
+        Parameter::word(
+            "half",
+            &[
+                ("lower", "Arc below, flat side on top."),
+                ("upper", "Arc on top, flat side below."),
+            ],
+            "Half of the cylinder.",
+        ),
+        Parameter::number("radius", POSITIVE, LENGTH, "Radius.")
+            .or_in_programs(&Absent::Number(8.0)),
+        Parameter::number("thickness", POSITIVE, LENGTH, "Thickness of the slice.")
+            .or_in_programs(&Absent::Number(1.0)),
+        Parameter::whole("layers", 1, "Elements over the thickness.").or(Absent::Whole(1)),
+        Parameter::number(
+            "element_size",
+            POSITIVE,
+            LENGTH,
+            "Element size at the contact point.",
+        )
+        .or_in_programs(&Absent::Number(0.2)),
+        Parameter::number(
+            "fine_half_width",
+            NOT_NEGATIVE,
+            LENGTH,
+            "Half the width of the zone with elements of this size.",
+        )
+        .or(Absent::Computed("5 element_size", |values| {
+            5.0 * values.number("element_size")
+        })),
+        Parameter::number(
+            "fine_depth",
+            NOT_NEGATIVE,
+            LENGTH,
+            "Depth of the zone with elements of this size.",
+        )
+        .or(Absent::Number(0.0)),
+        Parameter::number(
+            "growth",
+            &[Bound::AtLeast(1.0)],
+            NO_UNIT,
+            "Largest ratio of neighbouring sizes outside that zone.",
+        )
+        .or(Absent::Number(1.2)),
+    ],
+    build: |values| Ok(Generator::of(HalfCylinder::stated(values))),
+    fit: None,
+};
+
+/// A slice of a half cylinder along `y`, with sides `flat`, `arc`, `ymin`, `ymax`. Defaults are
+/// those of [`HALF_CYLINDER`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct HalfCylinder {
     /// Contact point: the lowest point of the lower half, the highest of the
-    /// upper half, in the side `ymin`; default the origin.
+    /// upper half, in the side `ymin`.
     pub apex: Vec3,
-    /// Half of the cylinder; the lower one by default, arc downwards.
+    /// Half of the cylinder.
     pub half: Half,
-    /// Radius; default 8.
+    /// Radius.
     pub radius: f64,
-    /// Extent of the slice along `y`; default 1.
+    /// Extent of the slice along `y`.
     pub thickness: f64,
-    /// Number of elements along `y`; default 1.
+    /// Number of elements along `y`.
     pub layers: usize,
-    /// Element size at the contact point; default 0.2.
+    /// Element size at the contact point.
     pub element_size: f64,
     /// Arc length to either side of the contact point with elements of this
-    /// size; default 1.
+    /// size.
     pub fine_half_width: f64,
-    /// Depth to which elements have this height below the contact point; default 0.
+    /// Depth to which elements have this height below the contact point.
     pub fine_depth: f64,
-    /// Largest ratio of neighbouring sizes outside; default 1.2.
+    /// Largest ratio of neighbouring sizes outside.
     pub growth: f64,
 }
 
@@ -47,21 +109,44 @@ pub enum Half {
 
 impl Default for HalfCylinder {
     fn default() -> Self {
-        Self {
-            apex: Vec3::zeros(),
-            half: Half::Lower,
-            radius: 8.0,
-            thickness: 1.0,
-            layers: 1,
-            element_size: 0.2,
-            fine_half_width: 1.0,
-            fine_depth: 0.0,
-            growth: 1.2,
-        }
+        Self::stated(&HALF_CYLINDER.completed(&Values::default()))
+    }
+}
+
+impl Generate for HalfCylinder {
+    fn mesh(&self) -> Result<Mesh, MeshError> {
+        self.mesh()
+    }
+
+    fn elements(&self) -> Option<u128> {
+        let disc = HalfDisc::new(self).ok()?;
+        Some(product(&[disc.cell_count(), self.layers]))
+    }
+
+    fn nodes(&self) -> Option<u128> {
+        let disc = HalfDisc::new(self).ok()?;
+        Some(product(&[disc.node_count(), self.layers.saturating_add(1)]))
     }
 }
 
 impl HalfCylinder {
+    fn stated(values: &Values) -> Self {
+        Self {
+            apex: values.array("apex").into(),
+            half: match values.word("half") {
+                "upper" => Half::Upper,
+                _ => Half::Lower,
+            },
+            radius: values.number("radius"),
+            thickness: values.number("thickness"),
+            layers: values.whole("layers"),
+            element_size: values.number("element_size"),
+            fine_half_width: values.number("fine_half_width"),
+            fine_depth: values.number("fine_depth"),
+            growth: values.number("growth"),
+        }
+    }
+
     /// The mesh.
     ///
     /// # Errors

@@ -1,4 +1,5 @@
-//! Generators: plain parameter structs with a `mesh()` method.
+//! Generators: plain parameter structs with a `mesh()` method, and [`GENERATORS`], which lists them
+//! as decks and the Python package know them.
 //!
 //! | generator | body |
 //! | --- | --- |
@@ -35,18 +36,33 @@ mod capped_block;
 mod cylinder;
 mod disc;
 mod division;
+mod generator;
 mod grading;
 mod grid;
 mod half_cylinder;
 mod sweep;
+#[cfg(test)]
+mod tests;
 mod torus;
 
-pub use annulus::{Annulus, Refinement};
-pub use block::{Block, Pivot, Rotation};
-pub use capped_block::{CappedBlock, Part};
-pub use cylinder::Cylinder;
+pub use annulus::{ANNULUS, Annulus, Refinement};
+pub use block::{BLOCK, Block, Pivot, Rotation};
+pub use capped_block::{CAPPED_BLOCK, CappedBlock, Part};
+pub use cylinder::{CYLINDER, Cylinder};
 pub use disc::Sector;
+pub use generator::{Generate, Generator};
 pub use grading::{Grading, refined_lengths};
 pub use grid::MOST_ELEMENTS;
-pub use half_cylinder::{Half, HalfCylinder};
-pub use torus::Torus;
+pub use half_cylinder::{HALF_CYLINDER, Half, HalfCylinder};
+use striae_declared::Declared;
+pub use torus::{TORUS, Torus};
+
+/// The generators that decks and the Python package know by name.
+pub static GENERATORS: &[&Declared<Generator>] = &[
+    &BLOCK,
+    &CAPPED_BLOCK,
+    &HALF_CYLINDER,
+    &ANNULUS,
+    &CYLINDER,
+    &TORUS,
+];

@@ -1,8 +1,20 @@
 //! Layers of hexahedra from a disc that is moved along a line or around an axis.
 
-use super::disc::Disc;
+use super::disc::{Disc, Sector};
+use super::generator::product;
 use super::grid::{Closure, check_element_count};
 use crate::{CellBlock, ElementId, Face, MeshError, NodeId, Vec3};
+
+/// Number of elements of a disc, from the divisions of its core, of the band around it, and the
+/// number of layers.
+pub(super) fn swept_elements([core, band, layers]: [usize; 3], sector: Sector) -> u128 {
+    let quarters = match sector {
+        Sector::Whole => 4,
+        Sector::Quarter => 1,
+    };
+    let deep = core.saturating_add(band.saturating_mul(2));
+    product(&[quarters, core, deep, layers])
+}
 
 /// A disc and how often it is repeated.
 pub(super) struct Sweep<'a> {

@@ -4,43 +4,87 @@
 //! the axis of the ring and its second one along it, swept around.
 
 use super::disc::{Disc, Sector};
+use super::generator::{Generate, Generator};
 use super::grid::{all_positive, goes_around, named_mesh};
-use super::sweep::Sweep;
+use super::sweep::{Sweep, swept_elements};
 use crate::{Mesh, MeshError, Vec3};
 use nalgebra::Rotation3;
 use std::f64::consts::{PI, TAU};
+use striae_declared::{Absent, Declared, LENGTH, POSITIVE, Parameter, Values};
 
-/// A ring with the side `surface`.
+/// The generator.
+pub static TORUS: Declared<Generator> = Declared {
+    name: "torus",
+    summary: "A ring of round section. Set of nodes and facets: `surface`.",
+    parameters: &[
+        Parameter::position("centre", "Centre of the ring."),
+        Parameter::direction("axis", "Axis of any length.")
+            .or(Absent::Numbers(&[0.0, 0.0, 1.0])),
+        Parameter::number(
+            "ring_radius",
+            POSITIVE,
+            LENGTH,
+            "Radius of the circle on which the centres of the sections lie.",
+        )
+        .or_in_programs(&Absent::Number(4.0)),
+        Parameter::number("section_radius", POSITIVE, LENGTH, "Radius of the section.")
+            .or_in_programs(&Absent::Number(1.0)),
+        Parameter::counts(
+            "divisions",
+            3,
+            "Elements along half an edge of the square core of the section, from the core to the surface, and around the axis. The section has eight times the first number around.",
+        )
+        .or_in_programs(&Absent::Counts(&[2, 2, 24])),
+    ],
+    build: |values| Ok(Generator::of(Torus::stated(values))),
+    fit: None,
+};
+
+/// A ring with the side `surface`. Defaults are those of [`TORUS`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Torus {
-    /// Middle of the ring; default the origin.
+    /// Middle of the ring.
     pub centre: Vec3,
-    /// Axis, of any length but zero; default `z`. Another axis turns the ring by the
+    /// Axis, of any length but zero. One other than `z` turns the ring by the
     /// shortest way.
     pub axis: Vec3,
-    /// Radius of the circle on which the middles of the sections lie; default 4.
+    /// Radius of the circle on which the middles of the sections lie.
     pub ring_radius: f64,
-    /// Radius of the section; default 1.
+    /// Radius of the section.
     pub section_radius: f64,
     /// Elements along half an edge of the square core of the section, from the core to
-    /// the surface, and around the axis (at least 3); default 2, 2, 24. The section has
+    /// the surface, and around the axis (at least 3). The section has
     /// eight times the first number around.
     pub divisions: [usize; 3],
 }
 
 impl Default for Torus {
     fn default() -> Self {
-        Self {
-            centre: Vec3::zeros(),
-            axis: Vec3::z(),
-            ring_radius: 4.0,
-            section_radius: 1.0,
-            divisions: [2, 2, 24],
-        }
+        Self::stated(&TORUS.completed(&Values::default()))
+    }
+}
+
+impl Generate for Torus {
+    fn mesh(&self) -> Result<Mesh, MeshError> {
+        self.mesh()
+    }
+
+    fn elements(&self) -> Option<u128> {
+        Some(swept_elements(self.divisions, Sector::Whole))
     }
 }
 
 impl Torus {
+    fn stated(values: &Values) -> Self {
+        Self {
+            centre: values.array("centre").into(),
+            axis: values.array("axis").into(),
+            ring_radius: values.number("ring_radius"),
+            section_radius: values.number("section_radius"),
+            divisions: values.counts("divisions"),
+        }
+    }
+
     /// The mesh.
     ///
     /// # Errors

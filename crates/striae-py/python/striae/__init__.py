@@ -36,23 +36,15 @@ from ._fibres import ExponentialFibres, Fibres, Fibrous, LinearFibres
 from ._fit import FrictionFit, Measurements, fit_friction, read_measurements
 from ._factor import FactorPoints, FactorSlopes, StateSlopes
 from ._friction import Friction, OwnFriction, SlipSurface
+from ._generators import *
+from ._generators import __all__ as _generators
 from ._gradient import differentiate
 from ._laws import *
 from ._laws import __all__ as _laws
 from ._material import Material, OwnMaterial, Rubber
 from ._materials import *
 from ._materials import __all__ as _materials
-from ._mesh import (
-    Grading,
-    Mesh,
-    annulus,
-    block,
-    capped_block,
-    cylinder,
-    half_cylinder,
-    read_mesh,
-    torus,
-)
+from ._mesh import Mesh, read_mesh
 from ._model import Advice, Check, Fit, Model, Remark, Solver
 from ._pair import Pair
 from ._results import (
@@ -101,7 +93,6 @@ __all__ = [
     "Fit",
     "Friction",
     "FrictionFit",
-    "Grading",
     "History",
     "Increment",
     "Increments",
@@ -146,21 +137,16 @@ __all__ = [
     "Tie",
     "TieResults",
     "Uniform",
-    "annulus",
-    "block",
-    "capped_block",
     "contact",
-    "cylinder",
     "differentiate",
     "fit_friction",
     "gravity",
-    "half_cylinder",
     "read_measurements",
     "read_mesh",
     "resume",
     "sweep",
-    "torus",
 ]
 
+__all__ += _generators
 __all__ += _laws
 __all__ += _materials

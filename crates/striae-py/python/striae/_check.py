@@ -37,8 +37,21 @@ Along: TypeAlias = Union[
 ]
 Members: TypeAlias = Union[npt.ArrayLike, Callable[[Floats], npt.ArrayLike]]
 
+#: Values of a table by the keys of decks.
+Table: TypeAlias = dict[str, Any]
+
 Values: TypeAlias = dict[
-    str, Union[float, list[float], str, tuple[float, ...], list[tuple[float, ...]], None]
+    str,
+    Union[
+        float,
+        list[float],
+        list[int],
+        str,
+        tuple[float, ...],
+        list[tuple[float, ...]],
+        Table,
+        None,
+    ],
 ]
 
 CURVES = ("ramp", "constant", "smooth")
@@ -188,6 +201,20 @@ def numbers(value: Any, path: str) -> list[float]:
         raise refuse(path, f"an array of one dimension is needed, not of {found.ndim}")
     listed: list[float] = found.astype(np.float64).tolist()
     return listed
+
+
+def table(value: Any, path: str) -> Table:
+    """Numbers, lists of them and further tables by their keys."""
+    if not isinstance(value, Mapping):
+        raise TypeError(f"{path}: a mapping is needed, not {type(value).__name__}")
+    found: Table = {}
+    for key, one in value.items():
+        place = f"{path}.{name(key, path)}"
+        if isinstance(one, Mapping):
+            found[key] = table(one, place)
+        else:
+            found[key] = number(one, place) if np.ndim(one) == 0 else numbers(one, place)
+    return found
 
 
 def row(value: Any, path: str, count: int) -> tuple[float, ...]:

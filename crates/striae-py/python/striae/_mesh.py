@@ -4,23 +4,20 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Mapping, Sequence
-from typing import Any, Literal, Optional, Union
+from collections.abc import Mapping
+from typing import Any, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _check as check
 from . import _striae as native
-from ._check import Floats, Ints, Members, Vector
+from ._check import Floats, Ints, Members, Values, Vector
 from ._errors import refuse
 from ._made import Strict
 
 #: Kinds of cells, by their names in meshio, and their corners.
 KINDS = {"hexahedron": 8, "wedge": 6, "pyramid": 5, "tetra": 4, "tetra10": 10}
-
-#: Kinds of cells that the hexahedra of generators are divided into.
-CellKind = Literal["hexahedron", "wedge", "pyramid", "tetra", "tetra10"]
 
 
 def frozen(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
@@ -81,6 +78,12 @@ class Mesh(Strict):
         mesh._native = found
         mesh._arrays = {}
         return mesh
+
+    @classmethod
+    def _generated(cls, generator: str, values: Values) -> Mesh:
+        """Makes the mesh of a declared generator from values that are present."""
+        given = [(name, value) for name, value in values.items() if value is not None]
+        return cls._of(native.generated(generator, given))
 
     @classmethod
     def of(cls, source: Any) -> Mesh:
@@ -297,273 +300,6 @@ def listed(names: Mapping[str, Any]) -> str:
     """End of a message: the names that exist."""
     known = ", ".join(f"`{name}`" for name in sorted(names))
     return f"; it has {known}" if known else "; it has none"
-
-
-class Grading:
-    """Lengths of the intervals along an edge of a generated mesh."""
-
-    def __init__(self, word: str, numbers: list[float]) -> None:
-        """Use :meth:`one_sided`, :meth:`symmetric` or :meth:`lengths`, which set the word and the
-        numbers."""
-        self._intervals = (word, numbers)
-
-    @classmethod
-    def one_sided(cls, ratio: float) -> Grading:
-        """A geometric sequence; ratio: last length over the first (no unit)."""
-        return cls("one-sided", [check.positive(ratio, "ratio")])
-
-    @classmethod
-    def symmetric(cls, ratio: float) -> Grading:
-        """A geometric sequence from both ends; ratio: length in the middle over that at the
-        ends (no unit)."""
-        return cls("symmetric", [check.positive(ratio, "ratio")])
-
-    @classmethod
-    def lengths(cls, lengths: Sequence[float]) -> Grading:
-        """Chosen lengths, one a division, up to a common factor (any unit)."""
-        return cls("lengths", [check.positive(one, "lengths") for one in lengths])
-
-
-def _intervals(grading: Optional[Mapping[str, Grading]], axes: str) -> list[Any]:
-    found = dict(grading or {})
-    chosen = [found.pop(axis, None) for axis in axes.split()]
-    if found:
-        raise refuse("grading", f"the keys are {axes.split()}, but there is {list(found)}")
-    return [None if one is None else check.kind(one, Grading, "grading")._intervals for one in chosen]
-
-
-def block(
-    size: Vector = (1.0, 1.0, 1.0),
-    divisions: Union[Sequence[int], Ints] = (1, 1, 1),
-    *,
-    origin: Vector = (0.0, 0.0, 0.0),
-    grading: Optional[Mapping[str, Grading]] = None,
-    rotation: Optional[tuple[Vector, float]] = None,
-    about: Optional[Vector] = None,
-    mesh_rotation: float = 0.0,
-    bottom_slopes: Vector = (0.0, 0.0),
-    top_slopes: Vector = (0.0, 0.0),
-    irregularity: float = 0.0,
-    seed: int = 0,
-    cells: CellKind = "hexahedron",
-) -> Mesh:
-    """A block with the sets ``xmin``, ``xmax``, ``ymin``, ``ymax``, ``zmin``, ``zmax`` of nodes
-    and facets, named before rotation.
-
-    size: lengths of the edges (length).
-    divisions: elements along the edges.
-    origin: corner of smallest coordinates, before rotation (length).
-    grading: intervals along ``x``, ``y``, ``z``; equal by default.
-    rotation: axis and angle (degrees) by which the whole block is rotated.
-    about: fixed point of the rotation (length); the centre by default.
-    mesh_rotation: angle by which the mesh is rotated about z inside the outline (degrees).
-    bottom_slopes, top_slopes: slopes of the lower and upper side along x and y (no unit).
-    irregularity: random displacement of inner nodes over the interval, below 0.5.
-    seed: of the random displacement.
-    cells: kind of the cells into which each division is divided.
-    """
-    turn = None
-    if rotation is not None:
-        axis, degrees = rotation
-        stays = None if about is None else check.vector(about, "about")
-        turn = (check.vector(axis, "rotation"), check.number(degrees, "rotation"), stays)
-    return Mesh._of(
-        native.block(
-            check.vector(origin, "origin"),
-            check.vector(size, "size"),
-            check.counts(divisions, "divisions"),
-            _intervals(grading, "x y z"),
-            turn,
-            check.number(mesh_rotation, "mesh_rotation"),
-            check.vector(bottom_slopes, "bottom_slopes", 2),
-            check.vector(top_slopes, "top_slopes", 2),
-            check.number(irregularity, "irregularity"),
-            check.whole(seed, "seed", 0),
-            check.word(cells, tuple(KINDS), "cells"),
-        )
-    )
-
-
-def capped_block(
-    *,
-    apex: Vector = (0.0, 0.0, 0.0),
-    size: Vector = (10.0, 10.0),
-    height: float = 6.5,
-    radius: float = 12.0,
-    element_size: float = 0.8,
-    fine_half_width: float = 1.6,
-    fine_depth: float = 0.0,
-    growth: float = 1.3,
-    half: bool = False,
-    cells: CellKind = "hexahedron",
-) -> Mesh:
-    """A block whose lower side is a spherical cap, with the sets ``xmin``, ``xmax``, ``ymin``,
-    ``ymax``, ``cap``, ``zmax``.
-
-    apex: lowest point (length).
-    size: edges of the plan along x and y (length).
-    height: from the apex to the upper side (length).
-    radius: of the sphere (length).
-    element_size: at the apex (length).
-    fine_half_width: half edge of the square with elements of this size (length).
-    fine_depth: depth to which they have this height (length).
-    growth: largest ratio of neighbouring sizes outside (no unit).
-    half: if true, only y >= 0 from the apex is meshed; ``ymin`` is then the plane of symmetry.
-    cells: kind of the cells into which its hexahedra are divided.
-    """
-    lengths = [height, radius, element_size, fine_half_width, fine_depth, growth]
-    names = ["height", "radius", "element_size", "fine_half_width", "fine_depth", "growth"]
-    place, plan = check.vector(apex, "apex"), check.vector(size, "size", 2)
-    deep, round_, fine, wide, depth, more = [
-        check.number(value, name) for value, name in zip(lengths, names)
-    ]
-    kind = check.word(cells, tuple(KINDS), "cells")
-    return Mesh._of(
-        native.capped_block(place, plan, deep, round_, fine, wide, depth, more, half, kind)
-    )
-
-
-def half_cylinder(
-    *,
-    apex: Vector = (0.0, 0.0, 0.0),
-    upper: bool = False,
-    radius: float = 8.0,
-    thickness: float = 1.0,
-    layers: int = 1,
-    element_size: float = 0.2,
-    fine_half_width: float = 1.0,
-    fine_depth: float = 0.0,
-    growth: float = 1.2,
-) -> Mesh:
-    """A slice of half a cylinder along y with the sets ``arc``, ``flat``, ``ymin``, ``ymax``.
-
-    apex: contact point, lowest of the lower half, highest of the upper one (length).
-    upper: if true, it is the upper half, with the arc upwards.
-    radius: of the cylinder (length).
-    thickness: extent along y (length).
-    layers: elements along y.
-    element_size: at the contact point (length).
-    fine_half_width: arc to either side with elements of this size (length).
-    fine_depth: depth to which they have this height (length).
-    growth: largest ratio of neighbouring sizes outside (no unit).
-    """
-    return Mesh._of(
-        native.half_cylinder(
-            check.vector(apex, "apex"),
-            upper,
-            check.number(radius, "radius"),
-            check.number(thickness, "thickness"),
-            check.whole(layers, "layers"),
-            check.number(element_size, "element_size"),
-            check.number(fine_half_width, "fine_half_width"),
-            check.number(fine_depth, "fine_depth"),
-            check.number(growth, "growth"),
-        )
-    )
-
-
-def annulus(
-    *,
-    centre: Vector = (0.0, 0.0, 0.0),
-    axis: Vector = (0.0, 1.0, 0.0),
-    inner_radius: float = 0.2,
-    outer_radius: float = 0.5,
-    width: float = 0.4,
-    divisions: Union[Sequence[int], Ints] = (3, 48, 4),
-    grading: Optional[Mapping[str, Grading]] = None,
-    refinement: Optional[tuple[float, float]] = None,
-) -> Mesh:
-    """A ring, such as a tyre, with the sets ``rim``, ``tread``, ``ymin``, ``ymax``, ``sides``.
-
-    centre: centre of the ring (length).
-    axis: of the ring, of any length.
-    inner_radius, outer_radius: radii (length).
-    width: extent along the axis (length).
-    divisions: elements along radius, circumference and axis.
-    grading: intervals along ``radial`` and ``axial``; equal by default.
-    refinement: angle to either side of the lowest point with the smallest elements (degrees),
-        and size at the highest point over that at the lowest (no unit).
-    """
-    fine = None
-    if refinement is not None:
-        half_angle, ratio = refinement
-        fine = (check.number(half_angle, "refinement"), check.number(ratio, "refinement"))
-    return Mesh._of(
-        native.annulus(
-            check.vector(centre, "centre"),
-            check.vector(axis, "axis"),
-            check.number(inner_radius, "inner_radius"),
-            check.number(outer_radius, "outer_radius"),
-            check.number(width, "width"),
-            check.counts(divisions, "divisions"),
-            _intervals(grading, "radial axial"),
-            fine,
-        )
-    )
-
-
-def cylinder(
-    *,
-    base: Vector = (0.0, 0.0, 0.0),
-    axis: Vector = (0.0, 0.0, 1.0),
-    radius: float = 1.0,
-    height: float = 1.0,
-    divisions: Union[Sequence[int], Ints] = (2, 2, 4),
-    grading: Optional[Mapping[str, Grading]] = None,
-    quarter: bool = False,
-) -> Mesh:
-    """A solid cylinder with the sets ``side``, ``zmin``, ``zmax``, named before rotation.
-
-    base: centre of the side ``zmin`` (length).
-    axis: from there, of any length.
-    radius: radius (length).
-    height: extent along the axis (length).
-    divisions: elements along half an edge of the square core, from the core to the side, and
-        along the axis; a quarter turn has twice the first number.
-    grading: intervals along ``axial``; equal by default.
-    quarter: if true, only x >= 0 and y >= 0 is meshed; ``xmin`` and ``ymin`` are then its planes of
-        symmetry.
-    """
-    return Mesh._of(
-        native.cylinder(
-            check.vector(base, "base"),
-            check.vector(axis, "axis"),
-            check.number(radius, "radius"),
-            check.number(height, "height"),
-            check.counts(divisions, "divisions"),
-            _intervals(grading, "axial"),
-            quarter,
-        )
-    )
-
-
-def torus(
-    *,
-    centre: Vector = (0.0, 0.0, 0.0),
-    axis: Vector = (0.0, 0.0, 1.0),
-    ring_radius: float = 4.0,
-    section_radius: float = 1.0,
-    divisions: Union[Sequence[int], Ints] = (2, 2, 24),
-) -> Mesh:
-    """A ring of round section, such as an O-ring, with the set ``surface``.
-
-    centre: centre of the ring (length).
-    axis: of the ring, of any length.
-    ring_radius: of the circle on which the centres of the sections lie (length).
-    section_radius: of the section (length).
-    divisions: elements along half an edge of the square core of the section, from the core
-        to the surface, and around the axis; the section has eight times the first number
-        around.
-    """
-    return Mesh._of(
-        native.torus(
-            check.vector(centre, "centre"),
-            check.vector(axis, "axis"),
-            check.number(ring_radius, "ring_radius"),
-            check.number(section_radius, "section_radius"),
-            check.counts(divisions, "divisions"),
-        )
-    )
 
 
 def read_mesh(path: Union[str, os.PathLike[str]], *, elements: Optional[str] = None) -> Mesh:

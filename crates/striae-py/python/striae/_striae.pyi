@@ -8,8 +8,6 @@ import numpy.typing as npt
 
 _Floats = npt.NDArray[np.float64]
 _Ints = npt.NDArray[np.int64]
-_Intervals = Optional[tuple[str, list[float]]]
-_Turn = Optional[tuple[list[float], float, Optional[list[float]]]]
 _Varying = Union[float, str]
 _Along = Union[
     str,
@@ -17,7 +15,15 @@ _Along = Union[
     tuple[str, Optional[float], list[tuple[float, float]], str],
 ]
 _Path = Union[str, PathLike[str]]
-_Given = Union[float, list[float], str, tuple[float, ...], list[tuple[float, ...]]]
+_Given = Union[
+    float,
+    list[float],
+    list[int],
+    str,
+    tuple[float, ...],
+    list[tuple[float, ...]],
+    dict[str, Any],
+]
 Watching = tuple[Optional[Callable[[Results], object]], int, Optional[int]]
 Recording = Optional[tuple[_Path, Optional[str], Optional[int]]]
 Pictured = tuple[
@@ -58,68 +64,7 @@ class Mesh:
 
 def read_mesh(path: _Path, elements: Optional[str]) -> Mesh: ...
 def read_rigid_surface(path: _Path) -> tuple[_Floats, _Ints]: ...
-def block(
-    origin: list[float],
-    size: list[float],
-    divisions: list[int],
-    gradings: list[_Intervals],
-    turn: _Turn,
-    mesh_rotation: float,
-    bottom_slopes: list[float],
-    top_slopes: list[float],
-    irregularity: float,
-    seed: int,
-    cells: str,
-) -> Mesh: ...
-def capped_block(
-    apex: list[float],
-    size: list[float],
-    height: float,
-    radius: float,
-    element_size: float,
-    fine_half_width: float,
-    fine_depth: float,
-    growth: float,
-    half: bool,
-    cells: str,
-) -> Mesh: ...
-def half_cylinder(
-    apex: list[float],
-    upper: bool,
-    radius: float,
-    thickness: float,
-    layers: int,
-    element_size: float,
-    fine_half_width: float,
-    fine_depth: float,
-    growth: float,
-) -> Mesh: ...
-def annulus(
-    centre: list[float],
-    axis: list[float],
-    inner_radius: float,
-    outer_radius: float,
-    width: float,
-    divisions: list[int],
-    gradings: list[_Intervals],
-    refinement: Optional[tuple[float, float]],
-) -> Mesh: ...
-def cylinder(
-    base: list[float],
-    axis: list[float],
-    radius: float,
-    height: float,
-    divisions: list[int],
-    gradings: list[_Intervals],
-    quarter: bool,
-) -> Mesh: ...
-def torus(
-    centre: list[float],
-    axis: list[float],
-    ring_radius: float,
-    section_radius: float,
-    divisions: list[int],
-) -> Mesh: ...
+def generated(generator: str, values: list[tuple[str, _Given]]) -> Mesh: ...
 
 def own_material(
     name: str, function: Callable[[_Floats], Optional[tuple[float, _Floats, _Floats]]]
@@ -158,15 +103,17 @@ class Parameter:
     name: str
     form: str
     words: list[tuple[str, str]]
+    count: int
     bounds: list[tuple[str, float]]
     unit: str
     doc: str
     is_required: bool
+    is_required_in_decks: bool
     value: Optional[_Given]
     default: str
     sets: list[tuple[str, list[Parameter]]]
 
-def declared_laws() -> list[tuple[str, list[tuple[str, str, bool, list[Parameter]]]]]: ...
+def declarations() -> list[tuple[str, list[tuple[str, str, bool, list[Parameter]]]]]: ...
 
 class Friction:
     @staticmethod

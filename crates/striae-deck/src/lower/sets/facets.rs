@@ -9,7 +9,7 @@ use super::{
 };
 use crate::{
     faults::FaultList,
-    lower::generator::nonzero,
+    lower::axis::nonzero,
     raw,
     read::At,
     value::{Text, vector},
