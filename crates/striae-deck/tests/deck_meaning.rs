@@ -129,6 +129,14 @@ fn constants() {
         ],
     );
     misstated(
+        "an axis of no length",
+        &[(
+            r#"generator = "block", size = [1, 1, 0.5], divisions = [4, 4, 2]"#,
+            r#"generator = "torus", axis = [0, 0, 0], ring_radius = 4, section_radius = 1, divisions = [1, 1, 3]"#,
+        )],
+        &["10:38: `axis` in [[body]] mesh must not be the zero vector"],
+    );
+    misstated(
         "normal of no length",
         &[("normal = [0, 0, 1]", "normal = [0, 0, 0]")],
         &["17:39: the normal of a plane must not be the zero vector"],

@@ -403,14 +403,6 @@ fn words() {
         ],
     );
     misread(
-        "an axis of no length",
-        &[(
-            r#"generator = "block", size = [1, 1, 0.5], divisions = [4, 4, 2]"#,
-            r#"generator = "torus", axis = [0, 0, 0], ring_radius = 4, section_radius = 1, divisions = [1, 1, 3]"#,
-        )],
-        &["10:38: `axis` in [[body]] mesh must not be the zero vector"],
-    );
-    misread(
         "unknown enforcement",
         &[(
             "mu = 0.3 }",
