@@ -40,7 +40,7 @@ mesh = mesh.with_sets(
 def stroke(**against: float) -> st.Model:
     """The worm shortens by a tenth and lengthens; against: coefficients of its feet."""
     sections = [st.Section(f"part {n}", flesh, density=1100.0) for n in range(FEET)]
-    worm = st.Body("worm", mesh, sections=sections, formulation="assumed-strain")
+    worm = st.Body("worm", mesh, sections=sections)
     ground, pairs = st.Plane("ground"), []
     for n, rough in enumerate(against.values()):
         nap = st.Nap(REST * SMOOTH, REST * rough, REST * (SMOOTH + rough) / 2)
