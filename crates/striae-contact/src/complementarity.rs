@@ -36,7 +36,7 @@ mod node;
 mod state;
 
 pub use crate::unknown::Prescribed;
-pub use node::{Conditions, ContactNode, Iteration};
+pub use node::{Bound, Conditions, ContactNode, Iteration, Linearisation};
 
 use crate::{
     configuration::Configuration,
@@ -97,13 +97,15 @@ pub fn rows(
         false => held(0, p),
     };
     let rows = if closed {
-        let (status, [first, second]) = match friction.rate_and_state() {
+        let (status, [first, second], deviation) = match friction.rate_and_state() {
             Some(law) if configuration.elapsed.is_finite() => {
-                creeping(&state, law, configuration, r_t)
+                let (status, rows) = creeping(&state, law, configuration, r_t);
+                (status, rows, 0.0)
             }
             _ => tangential(&state, configuration, [z1, z2], r_t, iteration),
         };
         result.status = status;
+        result.deviation = deviation;
         [normal, first, second]
     } else {
         [normal, held(1, z1), held(2, z2)]

@@ -217,6 +217,10 @@ pub struct NodeResult {
     pub closed: f64,
     /// `true` if nothing gives a kept node pressure.
     pub apart: bool,
+    /// Friction by which the rows of an iteration deviate from the law; of no account in a
+    /// converged state.
+    #[serde(skip)]
+    pub deviation: f64,
 }
 
 impl NodeResult {

@@ -31,7 +31,7 @@ use nalgebra::{Matrix2, Vector2};
 
 use super::{
     mobility::Mobility,
-    node::Iteration,
+    node::{Bound, Iteration},
     state::{N, NodeState, Q, Rate, TRACTION},
 };
 use crate::{configuration::Configuration, table_1::Corrector, term::Field, unknowns::Status};
@@ -39,28 +39,36 @@ use crate::{configuration::Configuration, table_1::Corrector, term::Field, unkno
 /// Tangential row: its field, its residual and its gradient over the lanes.
 pub(super) type TangentialRow = (Field, f64, [f64; N]);
 
-/// Status and tangential rows of a closed node with the unknowns `[z1, z2]`; `r` is the
-/// default of `r_t`.
+/// Status and tangential rows of a closed node with the unknowns `[z1, z2]`, and the friction by
+/// which the rows deviate from the law; `r` is the default of `r_t`.
 pub(super) fn tangential(
     state: &NodeState,
     configuration: &Configuration,
     [z1, z2]: [f64; 2],
     r: f64,
     iteration: Iteration,
-) -> (Status, [TangentialRow; 2]) {
+) -> (Status, [TangentialRow; 2], f64) {
     let z = [Q::variable(z1, TRACTION + 1), Q::variable(z2, TRACTION + 2)];
     if state.friction.is_frictionless() {
         // Without friction the rows state `z = 0`, which no status changes.
-        return (Status::Slip, z.map(traction));
+        return (Status::Slip, z.map(traction), 0.0);
     }
     let rate = match iteration {
-        Iteration::Later { slip_weight } => {
-            let r = r * slip_weight;
+        Iteration::Later(linearisation) => {
+            let r = r * linearisation.slip_weight;
             Rate::Along([0, 1].map(|at| z[at].re + r * state.turned[at].re))
         }
         Iteration::First | Iteration::Corrected(_) => Rate::Present,
     };
-    let varpi = state.varpi(rate);
+    let lags = matches!(iteration, Iteration::Later(of) if of.bound == Bound::Lagging);
+    let varpi_at = |rate| {
+        let mut varpi = state.varpi(rate);
+        if lags {
+            varpi.slope[state.pressure_lane()] = 0.0;
+        }
+        varpi
+    };
+    let varpi = varpi_at(rate);
     let node = Friction {
         state,
         mobility: Mobility::new(state),
@@ -69,7 +77,7 @@ pub(super) fn tangential(
             // From the right of the solution, at the smallest friction, Newton's method converges
             // monotonically; from rest it may move away.
             Status::Open | Status::Stick if state.node.before.begun % 2 == 1 => {
-                state.varpi(Rate::Weakest)
+                varpi_at(Rate::Weakest)
             }
             Status::Open | Status::Stick | Status::Slip => varpi,
         },
@@ -77,11 +85,16 @@ pub(super) fn tangential(
         z,
         r,
     };
-    match iteration {
+    let (status, rows) = match iteration {
         Iteration::First => node.first(),
-        Iteration::Later { slip_weight } => node.later(r * slip_weight),
+        Iteration::Later(linearisation) => {
+            let r = r * linearisation.slip_weight;
+            let (status, rows) = node.later(r);
+            return (status, rows, node.deviation(status, r));
+        }
         Iteration::Corrected(corrector) => node.corrected(r, corrector),
-    }
+    };
+    (status, rows, 0.0)
 }
 
 /// Friction at a closed node.
@@ -134,6 +147,28 @@ impl Friction<'_> {
             }
         };
         self.slip_or_stick(slips)
+    }
+
+    /// Friction by which the rows of a later iteration deviate from the law: they may have the
+    /// radius of the weakest friction, or let a node stick beyond the slip surface.
+    fn deviation(&self, status: Status, r: f64) -> f64 {
+        if !self.state.friction.weakens() {
+            return 0.0;
+        }
+        let y = match &self.mobility {
+            Mobility::Free | Mobility::Held => self.y(r),
+            Mobility::Along(way) => {
+                let y = self.along(&way.of_friction, r);
+                way.of_friction.map(|w| Q::combination([(y.re, &w)]))
+            }
+            Mobility::Driven => return 0.0,
+        };
+        let [of_law, of_row] = [&self.varpi, &self.begun].map(|varpi| self.reaching(varpi, &y).re);
+        match status {
+            Status::Slip => (of_row - of_law).abs(),
+            Status::Stick => (y[0].re.hypot(y[1].re) - of_law).max(0.0),
+            Status::Open => 0.0,
+        }
     }
 
     /// The corrector decides.

@@ -17,29 +17,54 @@ pub enum Iteration {
     /// continue to slip in their direction.
     First,
     /// A later one: the state decides.
-    Later {
-        /// `r_t` over its default. It changes which way cycles are left, not the solution.
-        slip_weight: f64,
-    },
+    Later(Linearisation),
     /// A later one: the labels of the nodes decide.
     Corrected(Corrector),
 }
 
 impl Iteration {
-    /// A later iteration with the default `r_t`.
-    pub const LATER: Self = Self::Later { slip_weight: 1.0 };
+    /// A later iteration of Newton's method.
+    pub const LATER: Self = Self::Later(Linearisation::NEWTON);
 
-    /// The iteration with a number, counted from 1, after the first one. First contact has no length
-    /// scale, so that cycles of active sets do not end with smaller increments, but with another
-    /// `r_t`: first a smaller one, then a larger one.
+    /// The iteration with a number, counted from 1, after the first one.
+    ///
+    /// First contact has no length scale, so that cycles of stick and slip do not end with smaller
+    /// increments. Nearly all come from pressures that change with friction: with given bounds of
+    /// friction, stick and slip have one solution. So the bounds lag for some iterations.
     pub fn later(number: usize) -> Self {
-        let slip_weight = match number {
-            0..=13 => 1.0,
-            14..=26 => 0.03,
-            _ => 10.0,
+        let (slip_weight, bound) = match number {
+            0..=13 => (1.0, Bound::Coupled),
+            14..=26 => (10.0, Bound::Lagging),
+            _ => (10.0, Bound::Coupled),
         };
-        Self::Later { slip_weight }
+        Self::Later(Linearisation { slip_weight, bound })
     }
+}
+
+/// Linearisation of the slip rows. It decides how the solution is found, not which one it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Linearisation {
+    /// `r_t` over its default.
+    pub slip_weight: f64,
+    /// Bound of friction.
+    pub bound: Bound,
+}
+
+impl Linearisation {
+    /// Newton's method.
+    pub const NEWTON: Self = Self {
+        slip_weight: 1.0,
+        bound: Bound::Coupled,
+    };
+}
+
+/// Bound of friction in an iteration.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bound {
+    /// It follows the pressures of the iteration.
+    Coupled,
+    /// It is that of the pressures before.
+    Lagging,
 }
 
 /// Conditions under which a pair is evaluated.

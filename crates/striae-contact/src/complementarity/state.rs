@@ -178,6 +178,7 @@ impl<'a> NodeState<'a> {
                 Pressure::AtPoints(supported) => supported.closed,
             },
             apart: kinematics.presence != Presence::Facing,
+            deviation: 0.0,
         }
     }
 

@@ -225,7 +225,7 @@ impl Attempt<'_> {
             let settled = taken == Taken::Whole
                 && is_final(iteration)
                 && self.is_sure(&assembled)
-                && self.labels_rest(&assembled);
+                && self.obeys_laws(&assembled);
             if norms.largest() <= solver.tolerance && settled {
                 if further == 0 {
                     self.acceptance = Acceptance::Converged;
@@ -268,11 +268,11 @@ impl Attempt<'_> {
         let at_rest = match iteration {
             // Late corrections are cheap already, and the first iteration of a step linearises
             // closed contact.
-            Iteration::Later { .. } if derivatives == Derivatives::First => {
+            Iteration::Later(_) if derivatives == Derivatives::First => {
                 let at = (&self.trial, assembled);
                 contact_at_rest(workspace, &self.setting(), at, &correction, before)?
             }
-            Iteration::First | Iteration::Later { .. } | Iteration::Corrected(_) => None,
+            Iteration::First | Iteration::Later(_) | Iteration::Corrected(_) => None,
         };
         if let Some((trial, assembled)) = at_rest {
             self.trial = trial;
@@ -315,7 +315,7 @@ impl Attempt<'_> {
     /// Derivatives needed of the state that a correction from the latest one leads to.
     fn wanted(&self, assembled: &Assembled, iteration: Iteration) -> Derivatives {
         let solver = &self.context.problem.model.solver;
-        let is_plain = matches!(iteration, Iteration::Later { .. });
+        let is_plain = matches!(iteration, Iteration::Later(_));
         if !is_plain || solver.further_iterations > 0 {
             return Derivatives::First;
         }

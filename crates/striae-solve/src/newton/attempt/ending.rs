@@ -1,6 +1,6 @@
 //! Tests of whether the iterations have ended.
 
-use striae_contact::{segment::ON_EDGE, unknowns::Status};
+use striae_contact::segment::ON_EDGE;
 
 use super::Attempt;
 use crate::{assembly::Assembled, newton::cycling::WINDOW, norms::Norms, outcome::CutBack};
@@ -20,23 +20,16 @@ pub enum Acceptance {
 }
 
 impl Attempt<'_> {
-    /// Returns whether the labels of all nodes equal those of the previous iteration, where
-    /// friction falls with the slip rate: a node that begins to slip may have the row of another
-    /// rate.
-    pub(super) fn labels_rest(&self, assembled: &Assembled) -> bool {
-        let frictions = &self.context.plan.frictions;
-        let contacts = self.trial.tractions.iter().zip(&assembled.contacts);
-        contacts
-            .zip(frictions)
-            .filter(|(_, friction)| friction.weakens())
-            .all(|((before, now), _)| {
-                let sides = before.labels.iter().zip(&now.nodes);
-                sides
-                    .flat_map(|(before, now)| before.iter().zip(now))
-                    .all(|(before, now)| {
-                        (before.status == Status::Slip) == (now.status == Status::Slip)
-                    })
-            })
+    /// Returns whether the friction of all nodes is that of the law, up to the tolerance. Where it
+    /// falls with the slip rate, rows of an iteration may state another one.
+    pub(super) fn obeys_laws(&self, assembled: &Assembled) -> bool {
+        let tolerance = self.context.problem.model.solver.tolerance;
+        let mut contacts = self.context.pairs.iter().zip(&assembled.contacts);
+        contacts.all(|(pair, contact)| {
+            let largest = tolerance * pair.stress_scale(&contact.nodes);
+            let mut nodes = contact.nodes.iter().flatten();
+            nodes.all(|node| node.deviation <= largest)
+        })
     }
 
     /// Returns whether the last iterations oscillate across a jump of the integrals of contact.
