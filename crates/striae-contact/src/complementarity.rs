@@ -43,7 +43,7 @@ use crate::{
     kinematics::{Presence, Pressure},
     segment::Derivatives,
     term::{Field, LocalTerm},
-    unknowns::NodeResult,
+    unknowns::{NodeResult, Status},
 };
 use creep::creeping;
 use friction::tangential;
@@ -52,12 +52,13 @@ use state::{N, NodeState, TRACTION};
 /// Gap below which a node counts as touching at the start of an increment, over the local size.
 const TOUCHING: f64 = 1e-6;
 
-/// The three rows of a kept node.
+/// The three rows of a kept node, its results, and the status that its state decides on, which it
+/// has unless another one is given.
 pub fn rows(
     configuration: &Configuration,
     node: &ContactNode,
     conditions: Conditions,
-) -> (LocalTerm, NodeResult) {
+) -> (LocalTerm, NodeResult, Status) {
     let Conditions {
         friction,
         prescribed,
@@ -71,11 +72,13 @@ pub fn rows(
     let g = state.gap.re;
     let is_free = state.is_free();
     let first = iteration == Iteration::First;
-    let (stated, closed) = match &node.kinematics.pressure {
+    let given = (iteration == Iteration::Given).then_some(node.before.status);
+    let is_closed = |closes: bool| given.map_or(closes, |status| status != Status::Open);
+    let (stated, closes) = match &node.kinematics.pressure {
         Pressure::AtNode => {
             let touching = first && g <= TOUCHING * size;
-            let closed = is_free && (touching || p - r_n * g > 0.0);
-            (closed, closed)
+            let closes = is_free && (touching || p - r_n * g > 0.0);
+            (is_closed(closes), closes)
         }
         Pressure::AtPoints(supported) => {
             let stated = is_free && node.kinematics.presence == Presence::Facing;
@@ -91,12 +94,11 @@ pub fn rows(
         row[TRACTION + component] = 1.0;
         (Field::Traction, value, row)
     };
-    let mut result = state.result();
     let normal = match stated {
         true => (Field::Gap(size), g, state.gap.slope),
         false => held(0, p),
     };
-    let rows = if closed {
+    let (mut decided, deviation, rows) = if is_closed(closes) {
         let (status, [first, second], deviation) = match friction.rate_and_state() {
             Some(law) if configuration.elapsed.is_finite() => {
                 let (status, rows) = creeping(&state, law, configuration, r_t);
@@ -104,11 +106,17 @@ pub fn rows(
             }
             _ => tangential(&state, configuration, [z1, z2], r_t, iteration),
         };
-        result.status = status;
-        result.deviation = deviation;
-        [normal, first, second]
+        (status, deviation, [normal, first, second])
     } else {
-        [normal, held(1, z1), held(2, z2)]
+        (Status::Stick, 0.0, [normal, held(1, z1), held(2, z2)])
+    };
+    if !closes {
+        decided = Status::Open;
+    }
+    let result = NodeResult {
+        status: given.unwrap_or(decided),
+        deviation,
+        ..state.result()
     };
     let first = configuration
         .pair
@@ -123,5 +131,5 @@ pub fn rows(
         }
         Derivatives::None => LocalTerm::from_columns::<0>(&numbered, &[], &[]),
     };
-    (term, result)
+    (term, result, decided)
 }

@@ -45,6 +45,8 @@ pub struct Evaluation {
     pub terms: Vec<LocalTerm>,
     /// Results of every node, by side.
     pub nodes: [Vec<NodeResult>; 2],
+    /// Kept nodes whose status is given and would be another one by their state, with that.
+    pub otherwise: Vec<(Side, SurfaceNode, Status)>,
     /// Pressure, and components of `-tau` along the nodal tangents, of every node, by side:
     /// what the unknowns of a node that is kept from now on start from.
     pub carried: [Vec<[f64; 3]>; 2],
@@ -211,6 +213,7 @@ impl Stage<'_> {
         let mut evaluation = Evaluation {
             terms: Vec::new(),
             nodes: counts.map(|count| vec![NodeResult::default(); count]),
+            otherwise: Vec::new(),
             carried: counts.map(|count| vec![[0.0; 3]; count]),
             facets: [Vec::new(), Vec::new()],
             topology: topology(patches.iter().map(|patch| &patch.paired)),
@@ -278,7 +281,7 @@ impl Evaluation {
 
     fn add_rows(&mut self, stage: &Stage, conditions: Conditions, derivatives: Derivatives) {
         let kept = stage.selection.kept();
-        let found: Vec<Option<(LocalTerm, NodeResult)>> = (0..kept.len())
+        let found: Vec<Option<(LocalTerm, NodeResult, Status)>> = (0..kept.len())
             .into_par_iter()
             .with_min_len(8)
             .map(|k| {
@@ -307,10 +310,13 @@ impl Evaluation {
             })
             .collect();
         for (k, found) in found.into_iter().enumerate() {
-            let Some((term, result)) = found else {
+            let Some((term, result, decided)) = found else {
                 continue;
             };
             let (side, node) = kept[k].place();
+            if decided != result.status {
+                self.otherwise.push((side, node, decided));
+            }
             // What a sticking node is away from where it sticks is residual, not slip; a creeping
             // one slips at any rate.
             let creeps = conditions.friction.rate_and_state().is_some();

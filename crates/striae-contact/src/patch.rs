@@ -149,7 +149,7 @@ impl Pressures<'_> {
         let size = segment.area.sqrt();
         let touching = match self.iteration {
             Iteration::First => TOUCHING * size,
-            Iteration::Later { .. } | Iteration::Corrected(_) => 0.0,
+            Iteration::Later(_) | Iteration::Corrected(_) | Iteration::Given => 0.0,
         };
         let near = ROUND_OFF * (size + paired.x[0].norm());
         let pressing = Pressing::new(supports, heights, [touching, near]);

@@ -90,6 +90,18 @@ impl Tractions {
         }
     }
 
+    /// Labels the nodes with their statuses in a converged state, whatever led to it.
+    pub fn settle(&mut self, nodes: &[Vec<NodeResult>; 2]) {
+        let settled = |node: &NodeResult| Label {
+            status: node.status,
+            apart: node.apart,
+            ..Label::default()
+        };
+        self.labels = nodes
+            .each_ref()
+            .map(|side| side.iter().map(settled).collect());
+    }
+
     /// Gives the nodes the labels that an iteration has found them to have.
     pub fn label(&mut self, nodes: &[Vec<NodeResult>; 2]) {
         let found = || self.labels.iter().flatten().zip(nodes.iter().flatten());

@@ -11,15 +11,17 @@
 //! modulus, the end of a curve, a place of nodes.
 //!
 //! Neighbours are no runs of their own. They follow the run increment by increment by one
-//! correction with its tangent, see `newton/neighbour.rs`, in its increments, with its kept nodes.
+//! correction with its tangent, see `newton/neighbour.rs`, in its increments, with its kept nodes
+//! and their statuses.
 //! States `s_-` and `s_+` take along all that an increment hands on to the next one: positions,
 //! velocities, tractions, internal variables, energies. So the derivative is that of the discrete
 //! equations, implicit differentiation with the converged tangent, and no history is kept.
 //!
 //! At a kink, such as a node between stick and slip or open and closed, the derivative is
-//! one-sided: the neighbours take different branches there, see [`Kink`].
+//! one-sided, that of the branch of the run: by themselves the neighbours would take different ones,
+//! see [`Kink`].
 
-use std::sync::Arc;
+use std::{collections::BTreeMap, sync::Arc};
 
 use striae_contact::{side::Side, unknowns::Status};
 use striae_element::Formulation;
@@ -32,7 +34,7 @@ use crate::{
     model::{Body, Procedure},
     newton::{
         Course, Increment, Workspace,
-        neighbour::{Base, Moved, Neighbour, linearise, moved},
+        neighbour::{Base, Moved, Neighbour, Size, linearise, moved},
     },
     outcome::CutBack,
     problem::Problem,
@@ -70,15 +72,17 @@ pub struct Neighbours {
     pub parameter: Parameter,
     /// Their states.
     pub states: [State; 2],
-    /// Largest part that a further correction of an increment would have changed, over the first.
+    /// Largest change that a further correction of an increment would have made, over the largest
+    /// differences of the neighbours until then.
     pub remainder: f64,
     /// Nodes that have been at a kink.
     pub kinks: Vec<Kink>,
     starts: [State; 2],
     courses: [Option<Course>; 2],
+    largest: Size,
 }
 
-/// A node at which the neighbours of a run took different branches in an increment.
+/// A node at which the neighbours of a run would take different branches in an increment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Kink {
     /// Number of the pair.
@@ -89,7 +93,7 @@ pub struct Kink {
     pub node: SurfaceNode,
     /// Time at the end of the increment.
     pub time: f64,
-    /// Its status at `p - h` and at `p + h`.
+    /// Status that it would have at `p - h` and at `p + h`.
     pub statuses: [Status; 2],
 }
 
@@ -198,8 +202,8 @@ impl Sensitivities {
         }
         linearise(&base, &mut self.workspace)?;
         let mut arrived = Vec::with_capacity(self.neighbours.len());
-        for two in set_out {
-            arrived.push(moved(&base, two, &mut self.workspace)?);
+        for (of, two) in self.neighbours.iter().zip(set_out) {
+            arrived.push(moved(&base, two, of.largest, &mut self.workspace)?);
         }
         for (of, moved) in self.neighbours.iter_mut().zip(arrived) {
             of.arrive(progress.step, moved);
@@ -218,6 +222,7 @@ impl Neighbours {
             starts: states.clone(),
             states,
             courses: [None, None],
+            largest: Size::default(),
             remainder: 0.0,
             kinks: Vec::new(),
         }
@@ -233,7 +238,12 @@ impl Neighbours {
     }
 
     fn arrive(&mut self, step: usize, moved: Moved) {
-        let Moved { states, remainder } = moved;
+        let Moved {
+            states,
+            otherwise,
+            largest,
+            remainder,
+        } = moved;
         for (at, after) in states.iter().enumerate() {
             let before = &self.states[at];
             let procedure = &self.parameter.problems[at].model.steps[step].procedure;
@@ -241,35 +251,37 @@ impl Neighbours {
             let last = self.courses[at].take().filter(|_| !has_inertia);
             self.courses[at] = Some(Course::new(step, before, after.time, last));
         }
+        self.kinks.extend(kinks(&states, &otherwise));
         self.states = states;
+        self.largest = largest;
         self.remainder = self.remainder.max(remainder);
-        let kinks = kinks(&self.states);
-        self.kinks.extend(kinks);
     }
 }
 
-/// Nodes of two states that have different statuses.
-fn kinks([less, more]: &[State; 2]) -> Vec<Kink> {
-    let pairs = less.pairs.iter().zip(&more.pairs).enumerate();
-    let of_side = |(pair, side): (usize, Side)| {
-        let [less, more] = [less, more].map(|state| &state.pairs[pair].nodes[side]);
-        let nodes = less.iter().zip(more).enumerate();
-        nodes.filter_map(move |(node, (less, more))| {
-            let statuses = [less.status, more.status];
-            (statuses[0] != statuses[1]).then_some((pair, side, node, statuses))
-        })
+/// Nodes that would have different statuses in two states.
+fn kinks(
+    states: &[State; 2],
+    otherwise: &[Vec<(usize, Side, SurfaceNode, Status)>; 2],
+) -> Vec<Kink> {
+    let mut found: BTreeMap<(usize, Side, SurfaceNode), [Status; 2]> = BTreeMap::new();
+    for (at, nodes) in otherwise.iter().enumerate() {
+        for &(pair, side, node, status) in nodes {
+            let given = states[at].pairs[pair].nodes[side][node].status;
+            found.entry((pair, side, node)).or_insert([given; 2])[at] = status;
+        }
+    }
+    let time = 0.5 * (states[0].time + states[1].time);
+    let kink = |((pair, side, node), statuses): (_, [Status; 2])| Kink {
+        pair,
+        side,
+        node,
+        time,
+        statuses,
     };
-    pairs
-        .flat_map(|(pair, _)| Side::BOTH.map(|side| (pair, side)))
-        .flat_map(of_side)
-        .map(|(pair, side, node, statuses)| Kink {
-            pair,
-            side,
-            node: SurfaceNode::new(node),
-            time: 0.5 * (less.time + more.time),
-            statuses,
-        })
-        .collect()
+    let different = found
+        .into_iter()
+        .filter(|(_, statuses)| statuses[0] != statuses[1]);
+    different.map(kink).collect()
 }
 
 /// Part of a problem that differs from another one in more than numbers.

@@ -24,7 +24,7 @@ use crate::{error::Error, results::Results};
 /// Step of a parameter over its value: errors of the order of its square, and those of round-off
 /// over it, are about 1e-9 of a derivative.
 const STEP: f64 = 1e-5;
-/// Uncertainty of a derivative, as part of it, above which there is a warning.
+/// Uncertainty of a derivative, as part of the largest until then, above which there is a warning.
 const UNCERTAIN: f64 = 1e-5;
 
 /// Derivatives of a run by a parameter.

@@ -26,6 +26,8 @@
 //! and sticks begins with it at every second time. Where `f` is negative throughout there is no
 //! slip, and Newton's method goes back and forth about its largest value. A node whose slip goes
 //! back and forth sticks, therefore.
+//!
+//! Longer than other files, as every stage of the iterations tells apart the same mobilities.
 
 use nalgebra::{Matrix2, Vector2};
 
@@ -53,12 +55,11 @@ pub(super) fn tangential(
         // Without friction the rows state `z = 0`, which no status changes.
         return (Status::Slip, z.map(traction), 0.0);
     }
+    let along = |r: f64| Rate::Along([0, 1].map(|at| z[at].re + r * state.turned[at].re));
     let rate = match iteration {
-        Iteration::Later(linearisation) => {
-            let r = r * linearisation.slip_weight;
-            Rate::Along([0, 1].map(|at| z[at].re + r * state.turned[at].re))
-        }
-        Iteration::First | Iteration::Corrected(_) => Rate::Present,
+        Iteration::Later(linearisation) => along(r * linearisation.slip_weight),
+        Iteration::Given if state.node.before.status != Status::Slip => along(r),
+        Iteration::First | Iteration::Corrected(_) | Iteration::Given => Rate::Present,
     };
     let lags = matches!(iteration, Iteration::Later(of) if of.bound == Bound::Lagging);
     let varpi_at = |rate| {
@@ -89,9 +90,10 @@ pub(super) fn tangential(
         Iteration::First => node.first(),
         Iteration::Later(linearisation) => {
             let r = r * linearisation.slip_weight;
-            let (status, rows) = node.later(r);
+            let (status, rows) = node.later(r, None);
             return (status, rows, node.deviation(status, r));
         }
+        Iteration::Given => node.later(r, Some(state.node.before.status)),
         Iteration::Corrected(corrector) => node.corrected(r, corrector),
     };
     (status, rows, 0.0)
@@ -123,30 +125,41 @@ impl Friction<'_> {
         }
     }
 
-    /// In a later one: `y` decides.
-    fn later(&self, r: f64) -> (Status, [TangentialRow; 2]) {
+    /// In a later one: `y` decides on the status, and on the rows unless their status is given.
+    fn later(&self, r: f64, given: Option<Status>) -> (Status, [TangentialRow; 2]) {
         let before = &self.state.node.before;
         // Only the first time, as the reduced tangent costs quadratic convergence.
-        let begins = before.status != Status::Slip && before.begun == 0;
-        let slips = match &self.mobility {
+        let begins = given.is_none() && before.status != Status::Slip && before.begun == 0;
+        let has_slip = |slips: bool| given.map_or(slips, |status| status == Status::Slip);
+        let (slips, rows) = match &self.mobility {
             Mobility::Along(way) => {
                 let w = &way.of_friction;
                 let y = self.along(w, r);
                 let way = w.map(|w| Q::combination([(y.re.signum(), &w)]));
                 let radius = self.reaching(&self.varpi, &way).re;
-                self.slips(y.re.abs(), radius, way.map(|way| way.re))
-                    .then(|| along(w, &self.z, &y, &self.reaching(&self.begun, &way), begins))
+                let slips = self.slips(y.re.abs(), radius, way.map(|way| way.re));
+                let limit = || self.reaching(&self.begun, &way);
+                let rows = || along(w, &self.z, &y, &limit(), begins);
+                (slips, has_slip(slips).then(rows))
             }
-            Mobility::Driven => self.driven(),
+            Mobility::Driven => {
+                let rows = self.driven();
+                (rows.is_some(), rows)
+            }
             Mobility::Free | Mobility::Held => {
                 let y = self.y(r);
                 let length = y[0].re.hypot(y[1].re);
                 let radius = self.reaching(&self.varpi, &y).re;
-                self.slips(length, radius, y.map(|y| y.re))
-                    .then(|| slip(&self.z, &y, &self.reaching(&self.begun, &y), begins))
+                let slips = self.slips(length, radius, y.map(|y| y.re));
+                let rows = || slip(&self.z, &y, &self.reaching(&self.begun, &y), begins);
+                (slips, has_slip(slips).then(rows))
             }
         };
-        self.slip_or_stick(slips)
+        let status = match slips {
+            true => Status::Slip,
+            false => Status::Stick,
+        };
+        (status, self.slip_or_stick(rows).1)
     }
 
     /// Friction by which the rows of a later iteration deviate from the law: they may have the

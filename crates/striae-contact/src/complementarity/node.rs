@@ -20,6 +20,8 @@ pub enum Iteration {
     Later(Linearisation),
     /// A later one: the labels of the nodes decide.
     Corrected(Corrector),
+    /// In a state whose contact is given: nodes have the statuses of their labels.
+    Given,
 }
 
 impl Iteration {

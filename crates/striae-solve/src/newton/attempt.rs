@@ -272,7 +272,9 @@ impl Attempt<'_> {
                 let at = (&self.trial, assembled);
                 contact_at_rest(workspace, &self.setting(), at, &correction, before)?
             }
-            Iteration::First | Iteration::Later(_) | Iteration::Corrected(_) => None,
+            Iteration::First | Iteration::Later(_) | Iteration::Corrected(_) | Iteration::Given => {
+                None
+            }
         };
         if let Some((trial, assembled)) = at_rest {
             self.trial = trial;

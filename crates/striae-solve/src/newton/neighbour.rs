@@ -9,11 +9,23 @@
 //! ```
 //!
 //! The error of `d` is of the order `h^3`, as even powers of `h` cancel, and so does what Newton's
-//! method left of the residual at `x`. No neighbour iterates: it takes kept nodes, kinds of directions
-//! of friction and branches of the laws from the increment. The error that is left is measured by what another such correction
-//! would change, and taken away by it where it is not small.
+//! method left of the residual at `x`. No neighbour iterates: it takes kept nodes, statuses and kinds
+//! of directions of friction from the increment, so that its rows are those of `K`. By its own state a
+//! node on the verge of slip would change its status at `x` already, as its slip is counted from `s_-`
+//! or `s_+`. So neighbours start where the motion of the increment leads from there, `x` and what
+//! they differed by before it.
+//!
+//! The error that is left is measured by what another such correction would change, and taken away
+//! by it where it is not small.
 
-use striae_contact::{complementarity::Iteration, segment::Derivatives, selection::Selection};
+mod size;
+
+use striae_contact::{
+    complementarity::Iteration, evaluation::Evaluation, segment::Derivatives, selection::Selection,
+    side::Side, unknowns::Status,
+};
+use striae_mesh::Vec3;
+use striae_surface::node::SurfaceNode;
 
 use super::{
     Increment, Workspace,
@@ -24,11 +36,13 @@ use super::{
     failure::linear_system,
     selected::{Selected, selected_in},
 };
+pub(crate) use size::Size;
+
 use crate::{
     assembly::{Assembled, Imposed, Setting, StepContext, Trial},
-    layout::Layout,
     outcome::CutBack,
     problem::Problem,
+    rigid::Pose,
     state::State,
 };
 
@@ -36,8 +50,6 @@ use crate::{
 const EXACT: f64 = 1e-12;
 /// Part of the first correction below which another one changes nothing.
 const NOTHING: f64 = 1e-7;
-/// Part of positions and tractions below which a correction is round-off.
-const ROUND_OFF: f64 = 1e-11;
 /// Remainder where a neighbour keeps other nodes than the increment, so that nothing is known of it.
 const UNLIKE: f64 = 1.0;
 /// Most corrections of an increment.
@@ -53,6 +65,31 @@ pub(crate) struct Base<'a> {
     pub increment: &'a Increment,
     /// Fraction of the step at its end.
     pub fraction: f64,
+}
+
+impl Base<'_> {
+    /// Positions that its motion leads to from those of a state.
+    fn moved(&self, before: &State) -> Vec<Vec3> {
+        let ends = self.increment.state.positions.iter();
+        let starts = before.positions.iter().zip(&self.before.positions);
+        let moved = ends.zip(starts);
+        moved
+            .map(|(end, (own, start))| end + (own - start))
+            .collect()
+    }
+
+    /// Poses that its motion leads to from those of a state.
+    fn turned(&self, before: &State) -> Vec<Pose> {
+        let ends = self.increment.state.rigid.iter();
+        let starts = before.rigid.iter().zip(&self.before.rigid);
+        let turned = ends.zip(starts).map(|(end, (own, start))| {
+            let [end, of_own, start] = [end, own, start].map(Pose::coordinates);
+            own.moved_to(&std::array::from_fn(|at| {
+                end[at] + (of_own[at] - start[at])
+            }))
+        });
+        turned.collect()
+    }
 }
 
 /// A neighbouring problem at the start of an increment.
@@ -71,7 +108,11 @@ pub(crate) struct Neighbour<'a> {
 pub(crate) struct Moved {
     /// Their states.
     pub states: [State; 2],
-    /// Change that a further correction would have made, over the first one.
+    /// Nodes, by pair, that would have another status in them than in the run, with that.
+    pub otherwise: [Vec<(usize, Side, SurfaceNode, Status)>; 2],
+    /// Largest differences from the run in its increments so far.
+    pub largest: Size,
+    /// Part of these that a further correction would have changed.
     pub remainder: f64,
 }
 
@@ -105,12 +146,12 @@ impl<'a> Neighbour<'a> {
         }
         for (tractions, after) in tractions.iter_mut().zip(after) {
             tractions.nodes.clone_from(&after.tractions.nodes);
-            tractions.labels.clone_from(&after.tractions.labels);
+            tractions.settle(&after.nodes);
         }
         workspace.extend(context.problem, &selections);
         let mut trial = Trial {
-            positions: base.increment.state.positions.clone(),
-            rigid: workspace.poses_at(&imposed, &base.increment.state.rigid),
+            positions: base.moved(before),
+            rigid: workspace.poses_at(&imposed, &base.turned(before)),
             pressures: base.increment.state.pressures.clone(),
             tractions,
         };
@@ -136,7 +177,7 @@ impl<'a> Neighbour<'a> {
     }
 
     fn assembled(&self, workspace: &mut Workspace) -> Result<Assembled, CutBack> {
-        let (setting, iteration) = (self.setting(), Iteration::LATER);
+        let (setting, iteration) = (self.setting(), Iteration::Given);
         workspace.assemble(&setting, &self.trial, iteration, Derivatives::None)
     }
 }
@@ -181,6 +222,7 @@ pub(crate) fn linearise(base: &Base, workspace: &mut Workspace) -> Result<(), Cu
             .clone_from(&before.tractions.accumulated);
         tractions.states.clone_from(&before.tractions.states);
         tractions.factors.clone_from(&before.tractions.factors);
+        tractions.settle(&after.nodes);
         tractions
     });
     let trial = Trial {
@@ -195,7 +237,7 @@ pub(crate) fn linearise(base: &Base, workspace: &mut Workspace) -> Result<(), Cu
         selections: &increment.selections,
         imposed: &imposed,
     };
-    workspace.assemble(&setting, &trial, Iteration::LATER, Derivatives::First)?;
+    workspace.assemble(&setting, &trial, Iteration::Given, Derivatives::First)?;
     let factored = workspace.factor();
     factored.map_err(|error| unsolved(context.problem, workspace, error))
 }
@@ -208,18 +250,27 @@ fn unsolved(
     linear_system(problem, workspace.system().numbers(), error)
 }
 
-/// Moves two neighbours to the end of an increment whose tangent has been factored.
+/// Moves two neighbours to the end of an increment whose tangent has been factored, after they
+/// have differed by `largest` at most so far.
 ///
 /// # Errors
 /// Why a state of theirs cannot be evaluated.
 pub(crate) fn moved(
     base: &Base,
     mut two: [Neighbour; 2],
+    mut largest: Size,
     workspace: &mut Workspace,
 ) -> Result<Moved, CutBack> {
     let problem = base.context.problem;
     let mut assembled = [two[0].assembled(workspace)?, two[1].assembled(workspace)?];
-    let (mut first, mut remainder): (Option<Size>, f64) = (None, f64::INFINITY);
+    let ends = &base.increment.state;
+    let carried = two
+        .each_ref()
+        .map(|of| Size::between(&of.trial.positions, &ends.positions));
+    let carried = carried[0].max(&carried[1]);
+    let round_off = Size::round_off(ends);
+    let (mut first, mut part): (Option<Size>, f64) = (None, f64::INFINITY);
+    let mut last = Size::default();
     for _ in 0..CORRECTIONS {
         let [less, more] = assembled.each_ref().map(|assembled| &assembled.residual);
         let half: Vec<f64> = more
@@ -229,12 +280,12 @@ pub(crate) fn moved(
             .collect();
         let correction = workspace.chord_correction(&half, EXACT);
         let correction = correction.map_err(|error| unsolved(problem, workspace, error))?;
-        let size = Size::of(&correction, problem, &workspace.system().layout);
-        let first = first.get_or_insert_with(|| size.max(&Size::round_off(base)));
-        let before = std::mem::replace(&mut remainder, size.over(first));
+        last = Size::of(&correction, problem, &workspace.system().layout);
+        let first = first.get_or_insert_with(|| last.max(&carried));
+        let before = std::mem::replace(&mut part, last.over(&first.max(&round_off)));
         // Corrections that do not fall are round-off, or the tangent is not that of both neighbours,
         // and would lead away from them.
-        if remainder <= NOTHING || remainder >= before {
+        if part <= NOTHING || part >= before {
             break;
         }
         for (neighbour, factor) in two.iter_mut().zip([-1.0, 1.0]) {
@@ -244,9 +295,21 @@ pub(crate) fn moved(
         }
         assembled = [two[0].assembled(workspace)?, two[1].assembled(workspace)?];
     }
+    largest = first.map_or(largest, |first| largest.max(&first));
+    let differences = largest.beyond(&round_off);
+    let mut remainder = last.over(&differences);
     if two.iter().any(|neighbour| !neighbour.is_like) {
         remainder = remainder.max(UNLIKE);
     }
+    let otherwise = assembled.each_ref().map(|assembled| {
+        let contacts = assembled.contacts.iter().enumerate();
+        let of_pair = |(pair, contact): (usize, &Evaluation)| {
+            let nodes = contact.otherwise.iter();
+            let nodes = nodes.map(|&(side, node, status)| (pair, side, node, status));
+            nodes.collect::<Vec<_>>()
+        };
+        contacts.flat_map(of_pair).collect()
+    });
     let mut states = two
         .into_iter()
         .zip(assembled)
@@ -271,48 +334,10 @@ pub(crate) fn moved(
             )
         });
     let states = [states.next(), states.next()].map(|state| state.expect("there are two"));
-    Ok(Moved { states, remainder })
-}
-
-/// Largest components of a correction: of positions, and of everything else.
-struct Size([f64; 2]);
-
-impl Size {
-    fn of(correction: &[f64], problem: &Problem, layout: &Layout) -> Self {
-        let mut is_position = vec![false; correction.len()];
-        for node in problem.global_nodes() {
-            let first = layout.position(node);
-            is_position[first..first + 3].fill(true);
-        }
-        let mut size = [0.0_f64; 2];
-        for (is_position, value) in is_position.iter().zip(correction) {
-            let of = &mut size[usize::from(!is_position)];
-            *of = of.max(value.abs());
-        }
-        Self(size)
-    }
-
-    /// Corrections that are round-off of the state an increment has come to.
-    fn round_off(base: &Base) -> Self {
-        let state = &base.increment.state;
-        let positions = state.positions.iter().map(|x| x.amax());
-        let pairs = state.pairs.iter();
-        let unknowns = pairs.flat_map(|pair| pair.tractions.nodes.iter().flatten().flatten());
-        let largest = [
-            positions.fold(0.0, f64::max),
-            unknowns.fold(0.0, |largest: f64, value| largest.max(value.abs())),
-        ];
-        Self(largest.map(|largest| ROUND_OFF * largest))
-    }
-
-    fn max(&self, other: &Self) -> Self {
-        Self([0, 1].map(|at| self.0[at].max(other.0[at])))
-    }
-
-    /// The largest of its shares in another one.
-    fn over(&self, first: &Self) -> f64 {
-        let shares = self.0.iter().zip(first.0);
-        let share = |(size, first): (&f64, f64)| if first > 0.0 { size / first } else { 0.0 };
-        shares.map(share).fold(0.0, f64::max)
-    }
+    Ok(Moved {
+        states,
+        otherwise,
+        largest,
+        remainder,
+    })
 }

@@ -42,7 +42,7 @@ pub(super) fn later(strategy: Strategy, inflation: Inflation, number: usize) -> 
 /// Returns whether the friction of an iteration is the true one.
 pub(super) fn is_final(iteration: Iteration) -> bool {
     match iteration {
-        Iteration::First | Iteration::Later(_) => true,
+        Iteration::First | Iteration::Later(_) | Iteration::Given => true,
         Iteration::Corrected(corrector) => corrector.inflation.is_over(),
     }
 }

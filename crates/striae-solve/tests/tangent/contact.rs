@@ -67,6 +67,9 @@ fn of_two_curved_surfaces_that_stick_slip_and_open() {
                 let statuses = pair.statuses(&u);
                 pair.assert_order(&u, &name);
                 pair.before = statuses.clone();
+                pair.iteration = Iteration::Given;
+                assert_eq!(pair.statuses(&u), statuses, "{name}");
+                pair.assert_order(&u, &name);
                 pair.iteration = Iteration::Corrected(Corrector {
                     stick_tolerance: 0.01,
                     inflation: Inflation::default().after(0.0),

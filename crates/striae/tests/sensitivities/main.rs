@@ -21,6 +21,13 @@ const BILLET: &str = include_str!("billet.toml");
 const DYNAMIC: &str = include_str!("../../src/simulation/tests/dynamic.toml");
 /// A slice of a pad between planes of symmetry, part of which sticks and part slips.
 const SLICE: &str = include_str!("slice.toml");
+/// A step after those of the slice, in which it goes back so little that it does not slip.
+const TAKEN_BACK: &str = r#"
+[[step]]
+name = "back"
+increments = 2
+displacement = [{ body = "pad", nodes = "zmax", x = 0.0495 }]
+"#;
 /// A bar on a floor that it just touches at the end of the step.
 const BAR: &str = include_str!("bar.toml");
 
@@ -144,6 +151,27 @@ fn of_a_slice_whose_friction_has_one_direction() {
     compare(SLICE, "width", 1.0);
     compare(SLICE, "pair.foot.friction.mu", 0.4);
     compare(SLICE, "material.rubber.youngs_modulus", 1e6);
+}
+
+#[test]
+fn of_a_slice_that_is_taken_back_a_little() {
+    // Nodes stick on the verge of slip, from where a start that a width moves by 1e-5 must not make
+    // them slip.
+    let taken_back = format!("{SLICE}{TAKEN_BACK}");
+    compare(&taken_back, "width", 1.0);
+    compare(&taken_back, "pair.foot.friction.mu", 0.4);
+}
+
+#[test]
+fn of_a_slice_that_sticks_beyond_the_law() {
+    // The corrector lets nodes stick that the rows of its neighbours alone would make slip.
+    let strategy = r#"
+        [solver]
+        strategy = { method = "table-1", stick_tolerance = 0.1 }
+    "#;
+    let corrected = format!("{SLICE}{TAKEN_BACK}{strategy}");
+    compare(&corrected, "width", 1.0);
+    compare(&corrected, "pair.foot.friction.mu", 0.4);
 }
 
 #[test]
