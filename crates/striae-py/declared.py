@@ -1,7 +1,7 @@
 """Writes the classes of declared laws, ``python/striae/_laws.py`` of friction and ``_materials.py``
-of bulk laws, the methods of declared dependences, ``_dependences.py``, and the functions of
-declared generators, ``_generators.py``: ``python crates/striae-py/declared.py``, with the package
-installed."""
+of bulk laws, those of declared textures, ``_textures.py``, the methods of declared dependences,
+``_dependences.py``, and the functions of declared generators, ``_generators.py``:
+``python crates/striae-py/declared.py``, with the package installed."""
 
 from __future__ import annotations
 
@@ -19,6 +19,21 @@ HERE = Path(__file__).parent / "python" / "striae"
 
 #: Classes written by hand that laws derive from.
 BASES = {"tabulated": "SampledFriction"}
+
+#: Arguments that state a list of tables of vectors by an array a key, by the key.
+COLUMNS = {"at": "places", "direction": "directions"}
+
+#: Order of what a texture has at all nodes.
+ORDER = " Nodes are in the order of :meth:`Mesh.surface_nodes`."
+
+#: Types of forms that have no parts.
+PLAIN = {
+    "several": "Vector",
+    "direction": "Vector",
+    "vectors": "npt.ArrayLike",
+    "whole": "int",
+    "counts": "Union[Sequence[int], Ints]",
+}
 
 Law = tuple[str, str, bool, list[native.Parameter]]
 
@@ -52,6 +67,19 @@ from ._check import Floats, Ints, Values, Vector
 from ._mesh import Mesh
 '''
 
+TEXTURES = '''"""Textures as the library declares them, written by ``declared.py``."""
+
+from __future__ import annotations
+
+from typing import Optional
+
+import numpy.typing as npt
+
+from . import _check as check
+from ._check import Values, Vector
+from ._texture import Texture
+'''
+
 DEPENDENCES = '''"""Dependences of friction as the library declares them, written by ``declared.py``."""
 ''' + IMPORTS.format(typing="TYPE_CHECKING, Optional, Union", check="Floats, Values") + '''from ._made import Made
 
@@ -78,11 +106,17 @@ class Argument:
     is_chosen: bool = False
     #: Other parameters of which it takes the place.
     instead: str = ""
+    #: Name, if it is not that of decks.
+    called: str = ""
+    #: Membership of several arrays that state one list.
+    is_column: bool = False
+    #: Need of a check that it is positive, which the library makes only later.
+    is_to_be_positive: bool = False
 
     @property
     def name(self) -> str:
-        """Name in decks."""
-        return self.parameter.name
+        """Name, that of decks if there is no reason for another one."""
+        return self.called or self.parameter.name
 
     @property
     def is_required(self) -> bool:
@@ -167,8 +201,8 @@ def types_of_members(parameters: list[native.Parameter]) -> list[str]:
 def type_of(parameter: native.Parameter) -> str:
     """Type of an argument."""
     form = parameter.form
-    if form in ("several", "whole", "counts"):
-        return {"several": "Vector", "whole": "int", "counts": "Union[Sequence[int], Ints]"}[form]
+    if form in PLAIN:
+        return PLAIN[form]
     if form == "table" and not is_row(parameter):
         return f"Mapping[str, {union(types_of_members(row(parameter)))}]"
     if form == "word":
@@ -182,7 +216,7 @@ def type_of(parameter: native.Parameter) -> str:
 
 def stated(of: Argument) -> str:
     """An argument in a signature."""
-    told = type_of(of.parameter)
+    told = "npt.ArrayLike" if of.is_column else type_of(of.parameter)
     if of.is_required:
         return f"{of.name}: {told}"
     if of.may_be_none:
@@ -196,14 +230,23 @@ def stated(of: Argument) -> str:
 
 def checked(of: Argument) -> str:
     """An argument in the dictionary of values."""
+    return f'"{of.name}": {check_of(of)}'
+
+
+def check_of(of: Argument) -> str:
+    """The call that checks an argument."""
     name, form = of.name, of.parameter.form
     if form == "word":
         known = ", ".join(f'"{word}"' for word, _ in of.parameter.words)
         call = f'check.word({name}, ({known}), "{name}")'
+    elif form == "number" and of.is_to_be_positive:
+        call = f'check.positive({name}, "{name}")'
     elif form == "number" and of.may_be_none:
-        return f'"{name}": check.optional({name}, "{name}")'
-    elif form in ("number", "numbers"):
+        return f'check.optional({name}, "{name}")'
+    elif form in ("number", "numbers", "direction"):
         call = f'check.{form}({name}, "{name}")'
+    elif form == "vectors":
+        call = f'check.columns({name}={name})'
     elif form == "whole":
         least = int(of.parameter.bounds[0][1])
         call = f'check.whole({name}, "{name}"{"" if least == 1 else f", {least}"})'
@@ -222,7 +265,7 @@ def checked(of: Argument) -> str:
             call += " or None"
     if of.may_be_none:
         call = f"None if {name} is None else {call}"
-    return f'"{name}": {call}'
+    return call
 
 
 def ticked(text: str) -> str:
@@ -234,7 +277,8 @@ def lowered(doc: str) -> str:
     """A description as part of a sentence."""
     doc = doc.rstrip(".")
     is_name = re.match(r"\w+'s ", doc) is not None
-    return doc[0].lower() + doc[1:] if doc[1:2].islower() and not is_name else doc
+    is_word = doc[1:2].islower() or doc.startswith("A ")
+    return doc[0].lower() + doc[1:] if is_word and not is_name else doc
 
 
 def bounded(parameter: native.Parameter) -> str:
@@ -266,13 +310,16 @@ def keyed(parameters: list[native.Parameter]) -> str:
 def defaulting(parameter: native.Parameter) -> str:
     """Value of a parameter where it is not given."""
     value = parameter.value
-    return f"{parameter.default or ('none' if value is None else f'`{value}`')} by default"
+    told = parameter.default or ("none" if value is None else f"`{value}`")
+    return f"by default {told}" if "," in told else f"{told} by default"
 
 
 def explained(of: Argument) -> str:
     """An argument in a docstring."""
     parameter = of.parameter
-    text = f"{of.name}: {bounded(parameter)}"
+    is_array = of.is_column or parameter.form == "vectors"
+    shape = "of shape (n, 3); " if is_array else ""
+    text = f"{of.name}: {shape}{bounded(parameter)}"
     if parameter.words:
         words = parameter.words
         text += ": " + "; ".join(f"`{word}`: {what.rstrip('.')}" for word, what in words)
@@ -285,7 +332,7 @@ def explained(of: Argument) -> str:
         text += f"; it or {of.instead} is needed"
     elif not of.is_required and (of.is_chosen or parameter.value is None):
         text += f"; {defaulting(parameter)}"
-    text = ticked(text) + "."
+    text = ticked(text) + "." + (ORDER if parameter.form == "vectors" else "")
     doc = parameter.sets[0][0] if parameter.form == "tables" else ""
     # The first sentence tells what an element is, which the names of its members tell too.
     _, _, more = doc.partition(". ")
@@ -302,7 +349,44 @@ def method(head: str, result: str, doc: str, parameters: list[native.Parameter],
     plain = [stated(one) for one in found if not one.is_shared]
     shared = [stated(one) for one in found if one.is_shared]
     all_of = ["self", *plain, *(["*", *shared] if shared else [])]
-    return function(head, result, doc, found, all_of, call)
+    values = [checked(one) for one in found]
+    return function(head, result, doc, found, all_of, values, call)
+
+
+def texture(name: str, doc: str, parameters: list[native.Parameter]) -> str:
+    """The class of a texture; what decks need not state goes by keyword."""
+    found, values = [], []
+    for one in parameters:
+        own, value = of_texture(name, one)
+        found += own
+        values.append(value)
+    found.sort(key=lambda one: not one.is_required)
+    plain = [stated(one) for one in found if one.is_required]
+    named = [stated(one) for one in found if not one.is_required]
+    all_of = ["self", *plain, *(["*", *named] if named else [])]
+    call = f'self._make("{name}", values)'
+    init = function("__init__", "None", "Makes the texture.", found, all_of, values, call)
+    return f"\nclass {class_name(name)}(Texture):\n{summary(doc)}\n\n{init}"
+
+
+def of_texture(name: str, parameter: native.Parameter) -> tuple[list[Argument], str]:
+    """Arguments of a parameter of a texture, and its entry in the dictionary of values. The name of
+    the class takes the place of the key that has the name of the texture in decks."""
+    key, form = parameter.name, parameter.form
+    members = row(parameter) if form in ("table", "tables") else []
+    if form == "table" and [one.name for one in members] == ["point", "direction"]:
+        point, direction = (Argument(one) for one in members)
+        direction.called = "axis" if key == name else key
+        point.called = "point" if key == name else f"{key}_point"
+        inner = f'"point": {check_of(point)}, "direction": {check_of(direction)}'
+        return [direction, point], f'"{key}": {{{inner}}}'
+    if form == "tables" and all(one.name in COLUMNS for one in members):
+        columns = [Argument(one, called=COLUMNS[one.name], is_column=True) for one in members]
+        inner = ", ".join(f"{one.name}={one.name}" for one in columns)
+        return columns, f'"{key}": check.columns({inner})'
+    own = Argument(parameter, called="direction" if key == name and form == "direction" else "")
+    own.is_to_be_positive = parameter.bounds == [("greater than", 0.0)]
+    return [own], f'"{key}": {check_of(own)}'
 
 
 def generator(name: str, doc: str, parameters: list[native.Parameter]) -> str:
@@ -313,11 +397,18 @@ def generator(name: str, doc: str, parameters: list[native.Parameter]) -> str:
     named = [stated(one) for one in found if not one.parameter.is_required_in_decks]
     all_of = [*plain, *(["*", *named] if named else [])]
     call = f'return Mesh._generated("{name}", values)'
-    return dedent(function(function_name(name), "Mesh", doc, found, all_of, call))
+    values = [checked(one) for one in found]
+    return dedent(function(function_name(name), "Mesh", doc, found, all_of, values, call))
 
 
 def function(
-    head: str, result: str, doc: str, found: list[Argument], all_of: list[str], call: str
+    head: str,
+    result: str,
+    doc: str,
+    found: list[Argument],
+    all_of: list[str],
+    values: list[str],
+    call: str,
 ) -> str:
     """A function with a docstring, which calls another with the values."""
     lines = [f"    def {head}({', '.join(all_of)}) -> {result}:"]
@@ -330,12 +421,17 @@ def function(
     else:
         lines[-1] += '"""'
     lines.append("        values: Values = {")
-    lines += [f"            {checked(one)}," for one in found]
+    lines += [f"            {value}," for value in values]
     if not found:
         lines[-1] += "}"
     else:
         lines.append("        }")
     return "\n".join([*lines, f"        {call}"]) + "\n"
+
+
+def summary(doc: str) -> str:
+    """The docstring of a class."""
+    return fill(f'"""{ticked(doc)}"""', 99, initial_indent=" " * 4, subsequent_indent=" " * 4)
 
 
 def base_of(law: str, parameters: list[native.Parameter], common: str) -> str:
@@ -350,11 +446,10 @@ def classes(head: str, declared: list[Law], common: str, made: str) -> str:
     parts = [head.format(bases=", ".join(sorted({common, *bases.values()})))]
     names = sorted(class_name(law) for law, *_ in declared)
     parts.append("__all__ = [\n" + "".join(f'    "{name}",\n' for name in names) + "]\n")
-    for law, summary, _, parameters in declared:
-        doc = fill(f'"""{ticked(summary)}"""', 99, initial_indent=" " * 4, subsequent_indent=" " * 4)
+    for law, told, _, parameters in declared:
         call = f'self._make("{law}", values)'
         init = method("__init__", "None", made, parameters, call)
-        parts.append(f"\nclass {class_name(law)}({bases[law]}):\n{doc}\n\n{init}")
+        parts.append(f"\nclass {class_name(law)}({bases[law]}):\n{summary(told)}\n\n{init}")
     return "\n".join(parts)
 
 
@@ -393,12 +488,22 @@ def generators(declared: list[Law]) -> str:
     return "\n".join(parts)
 
 
+def textures(declared: list[Law]) -> str:
+    """The module of textures."""
+    names = sorted(class_name(name) for name, *_ in declared)
+    parts = [TEXTURES, "__all__ = [\n" + "".join(f'    "{name}",\n' for name in names) + "]\n"]
+    parts += [texture(name, doc, parameters) for name, doc, _, parameters in declared]
+    return "\n".join(parts)
+
+
 def written() -> dict[Path, str]:
     """Files with their texts."""
     kinds = dict(native.declarations())
-    meshes, bulk, friction = [kinds.pop(kind) for kind in ("generator", "material", "law")]
+    meshes, painted = [kinds.pop(kind) for kind in ("generator", "texture")]
+    bulk, friction = [kinds.pop(kind) for kind in ("material", "law")]
     return {
         HERE / "_generators.py": generators(meshes),
+        HERE / "_textures.py": textures(painted),
         HERE / "_laws.py": laws(friction),
         HERE / "_materials.py": materials(bulk),
         HERE / "_dependences.py": dependences(list(kinds.items())),

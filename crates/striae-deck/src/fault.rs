@@ -281,6 +281,9 @@ pub enum FaultKind {
         /// Message of the law.
         cause: String,
     },
+    /// A texture refuses a value, by this reason.
+    #[error("the texture is not admissible: {0}")]
+    Texture(String),
     /// A texture that cannot be read from its file.
     #[error("the texture of {owner} cannot be read: {cause}")]
     NodalTexture {

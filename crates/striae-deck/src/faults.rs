@@ -11,9 +11,8 @@
 //!
 //! Lines and columns count from one; columns count characters.
 
-use super::fault::FaultKind;
+use super::{Laws, fault::FaultKind};
 use std::{borrow::Cow, fmt, ops::Range};
-use striae_law::Laws;
 
 /// A range of bytes of the deck's text.
 pub type Span = Range<usize>;

@@ -37,6 +37,8 @@ pub(crate) enum Open {
     Friction,
     /// Bulk laws.
     Bulk,
+    /// Textures, told by the keys of their parameters.
+    Texture,
 }
 
 /// One composition of a table.

@@ -1,37 +1,39 @@
-//! Laws and generators in tables: the name of a declared one at one key, its parameters at others.
+//! Laws, textures and generators in tables: the name of a declared one at one key, its parameters
+//! at others; of textures and directions of fibres the keys of the parameters tell the name.
 //!
-//! Reader, schema and reference follow from the declarations of `striae-law` and `striae-mesh`;
-//! this crate knows no law and no generator by name.
+//! Reader, schema and reference follow from the declarations of `striae-law`, `striae-surface` and
+//! `striae-mesh`; this crate knows no law, no texture and no generator by name.
 
 mod compositions;
 mod reading;
 
 use striae_declared::{Declared, Kind};
 use striae_law::{
-    Laws,
-    bulk::Material,
+    bulk::{DIRECTIONS, Direction, Material},
     friction::{
         BY_PRESSURE, BY_RATE, BY_SLIP, BY_STATE, DECAY, Friction, PressureDependence,
         RateDependence, SlipDependence, StateDependence,
     },
 };
 use striae_mesh::generate::{GENERATORS, Generator};
+use striae_surface::texture::Paint;
 
 use super::{
+    Laws,
     declare::read_as_table,
     faults::FaultList,
     form::{Alternative, Form, Open},
     read::{self, Part, Place, TableReader},
     value::word,
 };
-use compositions::{compositions, of_each, tag};
+use compositions::{compositions, key, of_each, of_law};
 pub(crate) use reading::Stated;
 
 /// A kind of laws that tables name.
 pub(crate) trait Named: Kind {
-    /// The key with the name.
-    const TAG: &'static str;
-    /// Its meaning.
+    /// The key with the name; none where the keys of the parameters tell it.
+    const TAG: Option<&'static str>;
+    /// Meaning of the name.
     const DOC: &'static str;
     /// The kind, if a program may add laws of its own.
     const OPEN: Option<Open>;
@@ -41,7 +43,7 @@ pub(crate) trait Named: Kind {
 }
 
 impl Named for Friction {
-    const TAG: &'static str = "law";
+    const TAG: Option<&'static str> = Some("law");
     const DOC: &'static str = "Friction law.";
     const OPEN: Option<Open> = Some(Open::Friction);
 
@@ -51,7 +53,7 @@ impl Named for Friction {
 }
 
 impl Named for Material {
-    const TAG: &'static str = "law";
+    const TAG: Option<&'static str> = Some("law");
     const DOC: &'static str = "Bulk law.";
     const OPEN: Option<Open> = Some(Open::Bulk);
 
@@ -61,7 +63,7 @@ impl Named for Material {
 }
 
 impl Named for Generator {
-    const TAG: &'static str = "generator";
+    const TAG: Option<&'static str> = Some("generator");
     const DOC: &'static str = "Generator of the mesh.";
     const OPEN: Option<Open> = None;
 
@@ -70,8 +72,28 @@ impl Named for Generator {
     }
 }
 
+impl Named for Paint {
+    const TAG: Option<&'static str> = None;
+    const DOC: &'static str = "Texture.";
+    const OPEN: Option<Open> = Some(Open::Texture);
+
+    fn declared(laws: &Laws) -> &[&'static Declared<Self>] {
+        laws.textures()
+    }
+}
+
+impl Named for Direction {
+    const TAG: Option<&'static str> = None;
+    const DOC: &'static str = "Direction of fibres.";
+    const OPEN: Option<Open> = None;
+
+    fn declared(_: &Laws) -> &[&'static Declared<Self>] {
+        DIRECTIONS
+    }
+}
+
 impl Named for PressureDependence {
-    const TAG: &'static str = "form";
+    const TAG: Option<&'static str> = Some("form");
     const DOC: &'static str = "How the coefficients depend on the pressure.";
     const OPEN: Option<Open> = None;
 
@@ -81,7 +103,7 @@ impl Named for PressureDependence {
 }
 
 impl Named for RateDependence {
-    const TAG: &'static str = "form";
+    const TAG: Option<&'static str> = Some("form");
     const DOC: &'static str = "How the coefficients depend on the slip rate.";
     const OPEN: Option<Open> = None;
 
@@ -91,7 +113,7 @@ impl Named for RateDependence {
 }
 
 impl Named for SlipDependence {
-    const TAG: &'static str = "form";
+    const TAG: Option<&'static str> = Some("form");
     const DOC: &'static str = "How the coefficients depend on the accumulated slip.";
     const OPEN: Option<Open> = None;
 
@@ -101,7 +123,7 @@ impl Named for SlipDependence {
 }
 
 impl Named for StateDependence {
-    const TAG: &'static str = "form";
+    const TAG: Option<&'static str> = Some("form");
     const DOC: &'static str = "How the state of the surface evolves.";
     const OPEN: Option<Open> = None;
 
@@ -113,17 +135,12 @@ impl Named for StateDependence {
 impl<L: Named> Part for Stated<L> {
     fn part(reader: &mut TableReader<'_, '_, '_>) -> Option<Self> {
         let laws = L::declared(reader.faults.laws());
-        let names: Vec<&'static str> = laws.iter().map(|law| law.name).collect();
-        let expected = Form::Words(names.iter().map(|name| (*name, "")).collect()).expected();
-        let read = |value: &read::Value<'_>, place: &Place, faults: &mut FaultList<'_>| {
-            word(value, place, faults, &names)
-        };
-        match reader.required_as(L::TAG, &expected, read) {
-            Some(at) => Some(Self::read(laws[at.value], reader)),
+        match L::TAG {
+            Some(tag) => Self::of_name(tag, laws, reader),
             None => {
-                laws.iter()
-                    .for_each(|law| reader.tolerate(&compositions(law.parameters)));
-                None
+                let groups = Self::groups(laws);
+                let at = reader.choose(&groups)?;
+                Some(Self::read(laws[at], reader))
             }
         }
     }
@@ -133,8 +150,36 @@ impl<L: Named> Part for Stated<L> {
             None => of_each::<L>(&Laws::default()),
             Some(open) => vec![Alternative {
                 doc: String::new(),
-                keys: vec![tag::<L>(Form::Law(open))],
+                keys: vec![key(L::TAG.unwrap_or_default(), L::DOC, Form::Law(open))],
             }],
+        }
+    }
+}
+
+impl<L: Named> Stated<L> {
+    /// Returns the compositions of the keys of each law.
+    pub(crate) fn groups(laws: &[&'static Declared<L>]) -> Vec<Vec<Alternative>> {
+        laws.iter().map(|law| of_law(law)).collect()
+    }
+
+    /// Reads the law that is named at a key.
+    fn of_name(
+        tag: &'static str,
+        laws: &[&'static Declared<L>],
+        reader: &mut TableReader<'_, '_, '_>,
+    ) -> Option<Self> {
+        let names: Vec<&'static str> = laws.iter().map(|law| law.name).collect();
+        let expected = Form::Words(names.iter().map(|name| (*name, "")).collect()).expected();
+        let read = |value: &read::Value<'_>, place: &Place, faults: &mut FaultList<'_>| {
+            word(value, place, faults, &names)
+        };
+        match reader.required_as(tag, &expected, read) {
+            Some(at) => Some(Self::read(laws[at.value], reader)),
+            None => {
+                laws.iter()
+                    .for_each(|law| reader.tolerate(&compositions(law.parameters)));
+                None
+            }
         }
     }
 }
@@ -149,15 +194,17 @@ impl Part for Decay {
     }
 
     fn alternatives() -> Vec<Alternative> {
-        compositions::of_law(&DECAY)
+        of_law(&DECAY)
     }
 }
 
+pub(crate) type FibreDirection = Stated<Direction>;
 pub(crate) type ByPressure = Stated<PressureDependence>;
 pub(crate) type BySlipRate = Stated<RateDependence>;
 pub(crate) type ByAccumulatedSlip = Stated<SlipDependence>;
 pub(crate) type ByState = Stated<StateDependence>;
 
+read_as_table!(FibreDirection);
 read_as_table!(Decay);
 read_as_table!(ByPressure);
 read_as_table!(BySlipRate);
@@ -170,6 +217,7 @@ impl Open {
         match self {
             Self::Friction => of_each::<Friction>(laws),
             Self::Bulk => of_each::<Material>(laws),
+            Self::Texture => of_each::<Paint>(laws),
         }
     }
 }

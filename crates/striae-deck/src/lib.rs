@@ -18,6 +18,7 @@ mod faults;
 mod form;
 mod include;
 mod law;
+mod laws;
 mod lower;
 mod names;
 mod parameters;
@@ -32,6 +33,7 @@ mod write;
 pub use convert::{Converted, convert};
 pub use fault::FaultKind;
 pub use faults::{Fault, Faults, Location, Position};
+pub use laws::Laws;
 pub use places::{Part, Places};
 pub use schema::{json_schema, reference};
 pub use settings::Setting;
@@ -39,7 +41,7 @@ pub use write::{Unstated, write};
 
 use faults::FaultList;
 use std::path::Path;
-use striae_law::{Laws, friction::Friction};
+use striae_law::friction::Friction;
 use striae_output::Output;
 use striae_solve::model::Model;
 use toml::de::DeTable;
@@ -130,13 +132,13 @@ pub fn friction(text: &str, file: &str) -> Result<Friction, Faults> {
     }
 }
 
-/// Reads decks that may name other laws than those of the library.
+/// Reads decks that may name other laws and textures than those of the library.
 ///
 /// ```
 /// use std::path::Path;
-/// use striae_deck::Reader;
+/// use striae_deck::{Laws, Reader};
 /// use striae_declared::{Declared, POSITIVE, Parameter};
-/// use striae_law::{Laws, friction::Friction};
+/// use striae_law::friction::Friction;
 ///
 /// static SLIPPERY: Declared<Friction> = Declared {
 ///     name: "slippery",

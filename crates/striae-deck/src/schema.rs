@@ -1,13 +1,13 @@
 //! The JSON schema and the reference of the deck, from its declarations.
 
 use super::{
+    Laws,
     form::{Alternative, Form, Key, Need},
     raw::Simulation,
     read::{Part, Read},
 };
 use serde_json::{Map, Value, json};
 use striae_declared::Bound;
-use striae_law::Laws;
 
 /// Texts that are expressions.
 const EXPRESSION: &str = r"^\s*=";
@@ -78,7 +78,7 @@ fn composed(alternative: &Alternative, laws: &Laws) -> Vec<Alternative> {
     let of_law = |law: Alternative| {
         let mut keys = whole.keys.clone();
         keys.splice(at..=at, law.keys);
-        let doc = format!("{} {}", whole.doc, law.doc);
+        let doc = format!("{} {}", whole.doc, law.doc).trim().to_owned();
         Alternative { doc, keys }
     };
     open.alternatives(laws).into_iter().map(of_law).collect()

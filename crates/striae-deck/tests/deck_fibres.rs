@@ -84,7 +84,7 @@ fn faults_of_fibres_are_named_where_they_are() {
         (
             RUBBER,
             "{ modulus = 2, direction = { uniform = [0, 0, 0] } }".to_owned(),
-            "deck.toml:7:50: the direction of fibres must not be the zero vector",
+            "deck.toml:7:50: `uniform` in [[material]] fibres direction must not be the zero vector",
         ),
         (
             RUBBER,

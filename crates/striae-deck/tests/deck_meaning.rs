@@ -650,7 +650,7 @@ fn textures() {
             r#"a = { body = "lower", facets = "zmax" }"#,
             r#"a = { body = "lower", facets = "zmax", texture = { uniform = [0, 0, 0] } }"#,
         )],
-        &["20:62: the direction of a texture must not be the zero vector"],
+        &["20:62: `uniform` in [[pair]] a texture must not be the zero vector"],
     );
     misstated(
         "texture about an axis of no direction",
@@ -658,7 +658,7 @@ fn textures() {
             r#"a = { body = "lower", facets = "zmax" }"#,
             r#"a = { body = "lower", facets = "zmax", texture = { radial = { direction = [0, 0, 0] } } }"#,
         )],
-        &["20:75: the direction of an axis must not be the zero vector"],
+        &["20:75: `direction` in [[pair]] a texture radial must not be the zero vector"],
     );
     misstated(
         "texture at points of a plane",

@@ -2,10 +2,9 @@
 
 use std::path::Path;
 
-use striae_deck::{Reader, json_schema, reference, write};
+use striae_deck::{Laws, Reader, json_schema, reference, write};
 use striae_declared::{Absent, Declared, Kind, POSITIVE, Parameter, Value};
 use striae_law::{
-    Laws,
     bulk::{DualNum, Inadmissible, Invariant, Isochoric, IsochoricLaw, Material, RUBBER, battery},
     friction::Friction,
 };

@@ -438,7 +438,7 @@ fn exclusive() {
             r#"a = { body = "lower", facets = "zmax", texture = { uniform = [1, 0, 0], axial = { direction = [1, 0, 0] } } }"#,
         )],
         &[
-            "20:73: `uniform` and `axial` exclude each other in [[pair]] a texture; give either `uniform` or `circumferential` or `axial` or `radial` or `points` or `nodal` or `directions`",
+            "20:73: `uniform` and `axial` exclude each other in [[pair]] a texture; give either `uniform` or `circumferential` or `axial` or `radial` or `points` or `directions` or `nodal`",
         ],
     );
     misread(

@@ -6,8 +6,7 @@ use deck::{
     BASE,
     schema::{Verdict, verdict},
 };
-use striae_deck::{json_schema, reference};
-use striae_law::Laws;
+use striae_deck::{Laws, json_schema, reference};
 
 #[test]
 fn the_schema_in_docs_is_up_to_date() {

@@ -1,6 +1,7 @@
-//! Laws and mesh generators as they are declared: once, with everything that others say of them.
+//! Laws, textures and mesh generators as they are declared: once, with everything that others say
+//! of them.
 //!
-//! A [`Declared`] law or generator has a name, parameters and a function that makes it of their
+//! A [`Declared`] law, texture or generator has a name, parameters and a function that makes it of their
 //! values. Decks, their schema and reference, the program and the Python package list, read,
 //! check and write them from these tables and know none of them.
 //!
@@ -12,8 +13,8 @@ mod terms;
 mod value;
 
 pub use parameter::{
-    ANY, Absent, Bound, Form, LENGTH, NO_UNIT, NOT_NEGATIVE, POISSONS_RATIO, POSITIVE, Parameter,
-    Set,
+    ANY, AXIS, Absent, Bound, Form, LENGTH, NO_UNIT, NOT_NEGATIVE, POISSONS_RATIO, POSITIVE,
+    Parameter, Set,
 };
 pub use set::Choice;
 pub use terms::{degrees, read_as};
@@ -21,7 +22,7 @@ pub use value::{Value, Values};
 
 use std::fmt;
 
-/// A kind of laws, such as friction, or the generators of meshes.
+/// A kind of laws, such as friction, or the textures, or the generators of meshes.
 pub trait Kind: Sized + 'static {
     /// Reason to refuse a law.
     type Refusal: std::error::Error;

@@ -37,6 +37,8 @@ pub enum Form {
     Several(usize, &'static [Bound]),
     /// Three finite numbers that are not all zero.
     Direction,
+    /// A list of three finite numbers each.
+    Vectors,
     /// A whole number that is not smaller than a least one.
     Whole(usize),
     /// As many numbers of things as stated, each at least 1.
@@ -90,6 +92,15 @@ pub enum Absent {
     /// Decks must give a value, programs have this one.
     InPrograms(&'static Absent),
 }
+
+/// A line in space: the parameters of [`Parameter::axis`].
+pub static AXIS: Set = Set {
+    doc: "A line in space.",
+    parameters: &[
+        Parameter::position("point", "A point of the axis."),
+        Parameter::direction("direction", "Direction of the axis, of any length."),
+    ],
+};
 
 /// Unit of a ratio.
 pub const NO_UNIT: &str = "no unit";
@@ -173,6 +184,19 @@ impl Parameter {
         Self {
             form: Form::Direction,
             ..Self::number(name, ANY, "", doc)
+        }
+    }
+
+    /// Returns an axis that must be given, by its direction and by default through the origin.
+    pub const fn axis(name: &'static str, doc: &'static str) -> Self {
+        Self::table(name, &AXIS, doc)
+    }
+
+    /// Returns a list of vectors that must be given.
+    pub const fn vectors(name: &'static str, unit: &'static str, doc: &'static str) -> Self {
+        Self {
+            form: Form::Vectors,
+            ..Self::number(name, ANY, unit, doc)
         }
     }
 

@@ -15,6 +15,8 @@ pub enum Value {
     Word(&'static str),
     /// A list of pairs of numbers.
     Pairs(Vec<[f64; 2]>),
+    /// A list of vectors.
+    Vectors(Vec<[f64; 3]>),
     /// Values of parameters of its own.
     Table(Values),
     /// A list of them.
@@ -148,6 +150,27 @@ impl Values {
         }
     }
 
+    /// Returns a list of vectors.
+    ///
+    /// # Panics
+    /// When there is none of that name.
+    pub fn vectors(&self, name: &str) -> &[[f64; 3]] {
+        let found = self.get(name).and_then(|value| match value {
+            Value::Vectors(vectors) => Some(vectors),
+            _ => None,
+        });
+        found.expect("the law declares the vectors it asks for")
+    }
+
+    /// Returns the values of a table.
+    ///
+    /// # Panics
+    /// When there is none of that name.
+    pub fn table(&self, name: &str) -> &Self {
+        let found = self.table_if_any(name);
+        found.expect("the law declares the table it asks for")
+    }
+
     /// Returns the values of a table, if it is there.
     pub fn table_if_any(&self, name: &str) -> Option<&Self> {
         match self.get(name)? {
@@ -224,6 +247,18 @@ impl From<&[usize]> for Value {
 impl From<Vec<[f64; 2]>> for Value {
     fn from(pairs: Vec<[f64; 2]>) -> Self {
         Self::Pairs(pairs)
+    }
+}
+
+impl From<Vec<[f64; 3]>> for Value {
+    fn from(vectors: Vec<[f64; 3]>) -> Self {
+        Self::Vectors(vectors)
+    }
+}
+
+impl From<[f64; 3]> for Value {
+    fn from(vector: [f64; 3]) -> Self {
+        Self::Numbers(vector.into())
     }
 }
 

@@ -6,8 +6,5 @@
 pub mod bulk;
 pub mod fit;
 pub mod friction;
-mod laws;
 #[cfg(test)]
 mod tests;
-
-pub use laws::Laws;

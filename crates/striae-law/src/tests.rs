@@ -27,6 +27,7 @@ fn value(form: Form) -> Value {
         Form::Counts(count) => vec![1; count].as_slice().into(),
         Form::Word(words) => words[0].0.into(),
         Form::Pairs => vec![[0.0, 0.3], [0.5, 1.5]].into(),
+        Form::Vectors => vec![[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]].into(),
         Form::Table(set) => table(set.parameters).into(),
         Form::Tables(set) => vec![table(set.parameters); 2].into(),
         Form::OneOf(_) => unreachable!("it has no value of its own"),
@@ -61,7 +62,7 @@ fn are_told(parameters: &[Parameter]) {
         let has_unit = match parameter.form {
             Form::Number(_) | Form::Numbers(_) | Form::Several(..) => true,
             Form::Word(_) | Form::Pairs => false,
-            Form::Direction | Form::Whole(_) | Form::Counts(_) => false,
+            Form::Direction | Form::Vectors | Form::Whole(_) | Form::Counts(_) => false,
             Form::Table(set) | Form::Tables(set) => {
                 assert!(set.doc.ends_with('.'), "{}", set.doc);
                 are_told(set.parameters);
@@ -106,6 +107,19 @@ fn each_is_made_again_of_what_it_states() {
     are_made(BY_STATE);
     are_made(&[&DECAY]);
     are_made(bulk::LAWS);
+}
+
+#[test]
+fn directions_of_fibres_are_made_again_of_what_they_state() {
+    for direction in bulk::DIRECTIONS {
+        for given in ways(direction.parameters, false) {
+            let Ok(made) = direction.made(&given);
+            let statement = made.stated();
+            assert_eq!(statement.law, direction.name);
+            assert_eq!(direction.made(&statement.values), Ok(made));
+        }
+        are_told(direction.parameters);
+    }
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! Declared laws and generators: made of values by their names, and listed for the classes and
+//! Declared laws, textures and generators: made of values by their names, and listed for the classes and
 //! functions of the package, which `declared.py` writes.
 
 use std::collections::BTreeMap;
@@ -10,6 +10,7 @@ use striae::law::{
     friction::{BY_PRESSURE, BY_RATE, BY_SLIP, BY_STATE, DECAY, LAWS},
 };
 use striae::mesh::generate::GENERATORS;
+use striae::surface::texture::TEXTURES;
 
 use crate::fault::refused;
 
@@ -102,12 +103,6 @@ fn found(
 }
 
 fn value(form: Form, given: &Given, name: &str) -> PyResult<Value> {
-    let table = |set: &Set, row: &[f64]| {
-        let names = set.parameters.iter().map(|parameter| parameter.name);
-        let values = names.zip(row).map(|(name, value)| (name, (*value).into()));
-        let fits = row.len() == set.parameters.len();
-        fits.then(|| values.collect::<Values>())
-    };
     if let (Form::Table(set), Given::Table(given)) = (form, given) {
         return stated_table(set, given, name).map(Value::Table);
     }
@@ -129,23 +124,47 @@ fn value(form: Form, given: &Given, name: &str) -> PyResult<Value> {
             let word = words.iter().find(|(known, _)| known == word);
             word.map(|(word, _)| (*word).into())
         }
-        (Form::Table(set), Given::Numbers(row)) => table(set, row).map(Value::Table),
+        (Form::Table(set), Given::Numbers(numbers)) => row(set, numbers).map(Value::Table),
         // A list without elements is read as one of numbers.
         (Form::Pairs, Given::Numbers(none)) if none.is_empty() => Some(Value::Pairs(Vec::new())),
         (Form::Tables(_), Given::Numbers(none)) if none.is_empty() => {
             Some(Value::Tables(Vec::new()))
+        }
+        (Form::Vectors, Given::Rows(rows)) => {
+            let vectors = rows.iter().map(|row| row.as_slice().try_into().ok());
+            vectors.collect::<Option<_>>().map(Value::Vectors)
         }
         (Form::Pairs, Given::Rows(rows)) => {
             let pairs = rows.iter().map(|row| row.as_slice().try_into().ok());
             pairs.collect::<Option<_>>().map(Value::Pairs)
         }
         (Form::Tables(set), Given::Rows(rows)) => {
-            let all = rows.iter().map(|row| table(set, row));
+            let all = rows.iter().map(|numbers| row(set, numbers));
             all.collect::<Option<_>>().map(Value::Tables)
         }
         _ => None,
     };
     made.ok_or_else(|| refused(name, "it has another form than the parameter"))
+}
+
+/// The values of a table, one after the other in the order of its parameters.
+fn row(set: &Set, numbers: &[f64]) -> Option<Values> {
+    let mut left = numbers;
+    let mut values = Values::default();
+    for parameter in set.parameters {
+        let count = match parameter.form {
+            Form::Several(count, _) => count,
+            Form::Direction => 3,
+            _ => 1,
+        };
+        let (own, others) = left.split_at_checked(count)?;
+        left = others;
+        values = match parameter.form {
+            Form::Several(..) | Form::Direction => values.with(parameter.name, own),
+            _ => values.with(parameter.name, own[0]),
+        };
+    }
+    left.is_empty().then_some(values)
 }
 
 /// The values of a table by its keys.
@@ -183,9 +202,10 @@ pub fn given(values: &Values) -> Vec<(&'static str, Given)> {
 impl From<&Value> for Given {
     fn from(value: &Value) -> Self {
         let row = |values: &Values| {
-            let numbers = values.iter().filter_map(|(_, value)| match value {
-                Value::Number(number) => Some(*number),
-                _ => None,
+            let numbers = values.iter().flat_map(|(_, value)| match value {
+                Value::Number(number) => vec![*number],
+                Value::Numbers(numbers) => numbers.clone(),
+                _ => Vec::new(),
             });
             numbers.collect::<Vec<_>>()
         };
@@ -196,18 +216,22 @@ impl From<&Value> for Given {
             Value::Numbers(numbers) => Self::Numbers(numbers.clone()),
             Value::Word(word) => Self::Word((*word).to_owned()),
             Value::Pairs(pairs) => Self::Rows(pairs.iter().map(|pair| pair.to_vec()).collect()),
+            Value::Vectors(vectors) => {
+                Self::Rows(vectors.iter().map(|vector| vector.to_vec()).collect())
+            }
             Value::Table(values) => Self::Numbers(row(values)),
             Value::Tables(all) => Self::Rows(all.iter().map(row).collect()),
         }
     }
 }
 
-/// All that is declared, by its kind: `generator`, `material`, `law` of friction, the keys of
+/// All that is declared, by its kind: `generator`, `texture`, `material`, `law` of friction, the keys of
 /// dependences in decks, and `decay`.
 #[pyfunction]
 pub fn declarations() -> Vec<(&'static str, Vec<Law>)> {
     vec![
         ("generator", listed(GENERATORS)),
+        ("texture", listed(TEXTURES)),
         ("material", listed(bulk::LAWS)),
         ("law", listed(LAWS)),
         ("by_pressure", listed(BY_PRESSURE)),
@@ -232,7 +256,9 @@ fn told(parameter: &declared::Parameter) -> Parameter {
         Form::Number(_) => ("number", Vec::new(), Vec::new()),
         Form::Numbers(_) => ("numbers", Vec::new(), Vec::new()),
         Form::Word(words) => ("word", words.to_vec(), Vec::new()),
-        Form::Several(..) | Form::Direction => ("several", Vec::new(), Vec::new()),
+        Form::Several(..) => ("several", Vec::new(), Vec::new()),
+        Form::Direction => ("direction", Vec::new(), Vec::new()),
+        Form::Vectors => ("vectors", Vec::new(), Vec::new()),
         Form::Whole(_) => ("whole", Vec::new(), Vec::new()),
         Form::Counts(_) => ("counts", Vec::new(), Vec::new()),
         Form::Pairs => ("pairs", Vec::new(), Vec::new()),

@@ -1,4 +1,4 @@
-"""Classes of declared laws and functions of declared generators are those of the library."""
+"""Classes of declared laws and textures and functions of declared generators are those of the library."""
 
 from __future__ import annotations
 
@@ -69,3 +69,32 @@ def test_words_of_a_fit_are_those_of_the_law() -> None:
         st.fit_friction(angles, forces, st.Nap, slip_rule="associated")
     with pytest.raises(st.ModelError, match="one of `opposing`, `associated` is needed"):
         st.fit_friction(angles, forces, st.Orthotropic, slip_rule="other")
+
+
+def test_textures_are_stated_by_what_their_names_leave_open() -> None:
+    assert repr(st.Axial((0, 0, 1), point=(1, 0, 0))) == "Axial((0, 0, 1), point=(1, 0, 0))"
+    text = grooved(st.Painted([[0, 0, 0], [1, 1, 0]], [(1, 0, 0), (0, 2, 0)], width=3))
+    points = (
+        "points = [{ at = [0.0, 0.0, 0.0], direction = [1.0, 0.0, 0.0] }, "
+        "{ at = [1.0, 1.0, 0.0], direction = [0.0, 2.0, 0.0] }], width = 3.0"
+    )
+    assert points in text
+    about = "radial = { point = [2.0, 0.0, 0.0], direction = [0.0, 0.0, 1.0] }, turn = 20.0"
+    assert about in grooved(st.Radial((0, 0, 1), point=(2, 0, 0), turn=20))
+    for wrong, told in [
+        (lambda: st.Radial((0, 0, 0)), "axis: a direction must not be the zero vector"),
+        (lambda: st.Painted([(0, 0, 0)], [(1, 0, 0)], width=-1), "width: it must be positive"),
+        (lambda: st.Nodal([1, 0, 0]), "directions: an array of shape"),
+    ]:
+        with pytest.raises(st.ModelError, match=told):
+            wrong()
+
+
+def grooved(texture: st.Texture) -> str:
+    """A deck with a texture."""
+    body = st.Body("block", st.block(), st.NeoHookean(1, 0.3))
+    floor = st.Plane("floor", normal=(0, 0, 1))
+    pair = st.Pair(body["zmin"].textured(texture), floor, st.Orthotropic(0.1, 0.4))
+    model = st.Model([body], rigid=[floor], pairs=[pair])
+    model.step("press", body["zmax"].displace(x=0, y=0, z=-0.1))
+    return model.to_deck()

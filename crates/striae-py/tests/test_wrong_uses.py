@@ -166,7 +166,7 @@ MODEL_ERRORS: list[tuple[Callable[[], Any], str]] = [
         "slip_rule: one of `opposing`, `associated` is needed, not 'other'",
     ),
     (lambda: st.Plane("f", normal=(0, 0, 0)), "normal: a direction must not be the zero vector"),
-    (lambda: st.Uniform((0, 0, 0)), "texture: a direction must not be the zero vector"),
+    (lambda: st.Uniform((0, 0, 0)), "direction: a direction must not be the zero vector"),
     (
         lambda: st.Painted([[0, 0, 0]], [[1, 0, 0], [0, 1, 0]]),
         "directions: there are 2 for 1 places",

@@ -29,21 +29,40 @@
 //! ordinates are 1/length. Errors: [`TextureError`].
 
 mod axes;
+mod axis;
 mod error;
 mod ordinates;
+mod own;
 mod paint;
 mod radial_basis;
+mod stated;
 #[cfg(test)]
 mod tests;
 
 pub use axes::Axes;
-pub use error::TextureError;
+pub use axis::Axis;
+pub use error::{InadmissibleTexture, TextureError};
+pub use num_dual::DualNum;
 pub use ordinates::Ordinates;
-pub use paint::{Axis, Field, Lines, Paint};
+pub use own::{DirectionField, OwnLines, PointLane};
+pub use paint::{
+    AXIAL, CIRCUMFERENTIAL, Field, Lines, NODAL, PAINTED, Paint, RADIAL, TURN, UNIFORM,
+};
 pub use radial_basis::Conditioning;
 
 use crate::node::SurfaceNode;
+use striae_declared::Declared;
 use striae_mesh::Vec3;
+
+/// The textures that decks and the Python package know by name.
+pub static TEXTURES: &[&Declared<Paint>] = &[
+    &UNIFORM,
+    &CIRCUMFERENTIAL,
+    &AXIAL,
+    &RADIAL,
+    &PAINTED,
+    &NODAL,
+];
 
 /// A texture: the edge ordinates of every node of a surface.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,8 +2,7 @@
 
 use std::{path::Path, sync::Arc};
 
-use striae_deck::{Reader, Setting};
-use striae_law::Laws;
+use striae_deck::{Laws, Reader, Setting};
 use striae_model::{Model, Validate};
 use striae_output::{
     OutputError,

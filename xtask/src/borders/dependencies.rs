@@ -40,7 +40,7 @@ const LADDER: &[Row] = &[
     },
     Row {
         name: "striae-surface",
-        own: &["striae-mesh"],
+        own: &["striae-declared", "striae-mesh"],
         outside: &["nalgebra", "num-dual", "serde", "thiserror"],
     },
     Row {

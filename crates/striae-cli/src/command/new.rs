@@ -69,7 +69,7 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     let schema = folder.join(SCHEMA);
     let text = format!(
         "{:#}\n",
-        striae_deck::json_schema(&striae_law::Laws::default())
+        striae_deck::json_schema(&striae_deck::Laws::default())
     );
     fs::write(&schema, text).map_err(|cause| unwritable(&schema, cause))?;
     let path = deck.display().to_string();

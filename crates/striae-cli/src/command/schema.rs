@@ -24,8 +24,8 @@ enum Format {
 /// Prints the schema.
 pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     match arguments.format {
-        Format::Json => writeln!(out, "{:#}", deck::json_schema(&striae_law::Laws::default()))?,
-        Format::Markdown => write!(out, "{}", deck::reference(&striae_law::Laws::default()))?,
+        Format::Json => writeln!(out, "{:#}", deck::json_schema(&deck::Laws::default()))?,
+        Format::Markdown => write!(out, "{}", deck::reference(&deck::Laws::default()))?,
     }
     Ok(())
 }

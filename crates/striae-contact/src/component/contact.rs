@@ -265,7 +265,7 @@ fn plane(point: &Vec3, normal: &Vec3, texture: Option<&Paint>) -> Result<PairedS
     let unit = normal.try_normalize(0.0);
     let normal = unit.ok_or_else(|| Faults::one("b.normal", FaultKind::Zero))?;
     let field = |paint: &Paint| match paint {
-        Paint::Field(field) => Ok(SideTexture::Plane(*field)),
+        Paint::Field(field) => Ok(SideTexture::Plane(field.clone())),
         _ => Err(Faults::one("b.texture", FaultKind::PlaneTexture)),
     };
     let texture = texture.map(field).transpose()?;

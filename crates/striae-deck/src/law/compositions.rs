@@ -1,21 +1,23 @@
 //! Keys of the parameters of laws, for the reader, the schema and the reference.
 
 use striae_declared::{self as declared, Declared, Kind, Parameter, Set};
-use striae_law::Laws;
 
 use super::Named;
 use crate::{
+    Laws,
     form::{Alternative, Form, Key, Need},
     read::combined,
 };
 
-/// Returns the compositions of each law, with the key of its name first.
+/// Returns the compositions of each law, with the key of its name first, if it has one.
 pub(super) fn of_each<L: Named>(laws: &Laws) -> Vec<Alternative> {
     let composed = |law: &&'static Declared<L>| {
-        let name = tag::<L>(Form::Words(vec![(law.name, "")]));
         let mut all = of_law(law);
-        all.iter_mut()
-            .for_each(|one| one.keys.insert(0, name.clone()));
+        if let Some(tag) = L::TAG {
+            let name = key(tag, L::DOC, Form::Words(vec![(law.name, "")]));
+            all.iter_mut()
+                .for_each(|one| one.keys.insert(0, name.clone()));
+        }
         all
     };
     L::declared(laws).iter().flat_map(composed).collect()
@@ -33,10 +35,11 @@ pub(super) fn of_law<L: Kind>(law: &Declared<L>) -> Vec<Alternative> {
         .collect()
 }
 
-pub(super) fn tag<L: Named>(form: Form) -> Key {
+/// Returns a key that is required.
+pub(super) fn key(name: &'static str, doc: &str, form: Form) -> Key {
     Key {
-        name: L::TAG,
-        doc: L::DOC.to_owned(),
+        name,
+        doc: doc.to_owned(),
         need: Need::Required,
         form,
     }
@@ -98,6 +101,7 @@ pub(super) fn form(of: declared::Form) -> Form {
         declared::Form::Whole(least) => Form::Whole(least),
         declared::Form::Counts(count) => several(Form::Whole(1), count),
         declared::Form::Word(words) => Form::Words(words.to_vec()),
+        declared::Form::Vectors => list(several(Form::Number(declared::ANY), 3)),
         declared::Form::Pairs => list(several(Form::Number(declared::ANY), 2)),
         declared::Form::Table(set) => Form::Table(of_set(set)),
         declared::Form::Tables(set) => list(Form::Table(of_set(set))),

@@ -21,7 +21,7 @@ pub(crate) struct Stated<L: Kind> {
 
 impl<L: Kind> Stated<L> {
     /// Reads the parameters of a law.
-    pub(super) fn read(law: &'static Declared<L>, reader: &mut TableReader<'_, '_, '_>) -> Self {
+    pub(crate) fn read(law: &'static Declared<L>, reader: &mut TableReader<'_, '_, '_>) -> Self {
         let mut places = Vec::new();
         Self {
             law,
@@ -113,6 +113,13 @@ fn read_as(
         Form::Word(words) => {
             let names: Vec<&'static str> = words.iter().map(|(name, _)| *name).collect();
             names[word(value, place, faults, &names)?].into()
+        }
+        Form::Vectors => {
+            let vectors = All::<[Number; 3]>::read(value, place, faults)?.0;
+            let vectors = vectors
+                .into_iter()
+                .map(|vector| vector.map(|number| number.0));
+            vectors.collect::<Vec<_>>().into()
         }
         Form::Pairs => {
             let pairs = All::<[Number; 2]>::read(value, place, faults)?

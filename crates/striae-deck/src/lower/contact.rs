@@ -186,7 +186,7 @@ fn lower_side(
 ) -> Option<(ContactSurface, Option<Paint>)> {
     let side = lower_surface(raw, surfaces, faults);
     let texture = match &raw.texture {
-        Some(raw) => texture::paint(&raw.value, side.as_ref(), surfaces, faults).map(Some),
+        Some(raw) => texture::paint(raw, side.as_ref(), surfaces, faults).map(Some),
         None => Some(None),
     };
     Some((side?, texture?))
@@ -202,9 +202,6 @@ fn lower_surface(
         raw::SideSurface::Rigid(side) => {
             let name = side.rigid.as_ref()?;
             let rigid = surfaces.rigid_names.find(name, faults)?;
-            if let Some(texture) = &raw.texture {
-                texture::check_plane(surfaces.rigid[rigid].as_ref(), texture, faults);
-            }
             Some(ContactSurface::Rigid(RigidId(rigid)))
         }
     }

@@ -11,7 +11,6 @@ use super::{
 use crate::{faults::FaultList, raw, read::At, value::Text};
 use striae_law::friction::Friction;
 use striae_model::{Draft, Everything, Lowered, everything};
-use striae_solve::model::{ContactSurface, RigidId};
 use striae_surface::texture::Paint;
 
 /// The pairs, none if a deck does not request contact of everything; `None` after faults.
@@ -109,9 +108,6 @@ fn painted<'r>(
     let Text(label) = &raw.of.as_ref()?.value;
     let stated = raw.texture.as_ref()?;
     let surface = draft.surface(label);
-    if let Some(ContactSurface::Rigid(RigidId(rigid))) = surface {
-        texture::check_plane(surfaces.rigid[rigid].as_ref(), stated, faults);
-    }
-    let paint = texture::paint(&stated.value, surface.as_ref(), surfaces, faults);
+    let paint = texture::paint(stated, surface.as_ref(), surfaces, faults);
     Some((label.as_str(), paint?))
 }

@@ -3,7 +3,6 @@
 
 mod actuation;
 mod admissible;
-mod axis;
 mod body;
 pub(crate) mod cards;
 mod cavity;
@@ -22,6 +21,7 @@ mod materials;
 mod mesh;
 mod named;
 mod nodal;
+mod nonzero;
 mod output;
 mod place;
 mod rigid;

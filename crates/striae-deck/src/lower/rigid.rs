@@ -1,6 +1,6 @@
 //! Rigid bodies and what they do.
 
-use super::{Listed, Scope, axis::nonzero, body::Bodies, list, mesh};
+use super::{Listed, Scope, body::Bodies, list, mesh, nonzero::nonzero};
 use crate::{fault::FaultKind, faults::FaultList, raw, read::At, value::Positive, value::vector};
 use std::path::Path;
 use striae_mesh::Vec3;

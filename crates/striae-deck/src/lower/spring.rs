@@ -1,6 +1,6 @@
 //! Springs and dashpots.
 
-use super::{axis::nonzero, surfaces::Surfaces};
+use super::{nonzero::nonzero, surfaces::Surfaces};
 use crate::{faults::FaultList, names::Names, raw, read::At, value::vector};
 use striae_model::FaultKind as ModelFault;
 use striae_solve::model::{RigidId, Spring, SpringEnd, SpringLine, SpringRest};

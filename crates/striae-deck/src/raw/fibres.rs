@@ -1,13 +1,13 @@
 //! `fibres` of a material.
 //!
 //! A family is no law of its own, which would be declared in `striae-law`: it stands in any elastic
-//! solid, and its direction is a field in the space of the body.
+//! solid. Its directions are declared.
 
-use super::{
-    super::declare::{either, table},
-    Axis,
+use crate::{
+    declare::{either, table},
+    law::FibreDirection,
+    value::{NonNegative, Positive},
 };
-use crate::value::{NonNegative, Number, Positive};
 
 table! {
     /// A family of fibres.
@@ -44,53 +44,5 @@ table! {
     LinearFibres {
         /// Modulus `M` that the family adds along its direction at rest.
         required modulus: Positive,
-    }
-}
-
-either! {
-    /// Direction of fibres at rest.
-    FibreDirection {
-        Uniform(UniformFibres),
-        Circumferential(CircumferentialFibres),
-        Axial(AxialFibres),
-        Radial(RadialFibres),
-    }
-}
-
-table! {
-    /// One direction.
-    UniformFibres {
-        /// The direction, of any length.
-        required uniform: [Number; 3],
-    }
-}
-
-table! {
-    /// Circles about an axis by the right-hand rule.
-    CircumferentialFibres {
-        /// The axis.
-        required circumferential: Axis,
-        /// Angle in degrees by which they are rotated about the radius, counter-clockwise seen from
-        /// outside. Default: 0.
-        optional turn: Number,
-    }
-}
-
-table! {
-    /// Parallels of an axis.
-    AxialFibres {
-        /// The axis.
-        required axial: Axis,
-        /// Angle in degrees by which they are rotated about the radius, counter-clockwise seen from
-        /// outside. Default: 0.
-        optional turn: Number,
-    }
-}
-
-table! {
-    /// Rays away from an axis.
-    RadialFibres {
-        /// The axis.
-        required radial: Axis,
     }
 }

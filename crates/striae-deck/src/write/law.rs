@@ -1,12 +1,13 @@
-//! Friction laws and materials.
+//! Friction laws, textures and materials.
 
-use striae_declared::{Kind, Statement, Value, Values, degrees};
+use striae_declared::{Kind, Statement, Value, Values};
 use striae_law::{
-    bulk::{Direction, FibreStiffness, Fibres, LinesAbout, Material},
+    bulk::{FibreStiffness, Fibres, Material},
     friction::{DECAY, Friction},
 };
+use striae_surface::texture::Paint;
 
-use super::value::{list, number, text, vector};
+use super::value::{lines, list, number, text};
 
 /// The keys of a friction table in braces; `None` for a law of one's own.
 pub(super) fn friction(friction: &Friction) -> Option<String> {
@@ -65,9 +66,17 @@ fn stated_value(value: &Value) -> String {
         Value::Counts(counts) => list(counts.iter().map(usize::to_string)),
         Value::Word(word) => text(word),
         Value::Pairs(pairs) => list(pairs.iter().map(|pair| numbers(pair))),
+        Value::Vectors(vectors) => lines(vectors.iter().map(|vector| numbers(vector))),
         Value::Table(values) => table(values),
         Value::Tables(all) => list(all.iter().map(table)),
     }
+}
+
+/// The keys of a texture in braces; `None` for one that no declaration states.
+pub(super) fn texture(paint: &Paint) -> Option<String> {
+    let Statement { values, .. } = paint.stated()?;
+    let each: Vec<String> = stated(&values).collect();
+    Some(format!("{{ {} }}", each.join(", ")))
 }
 
 /// Lines of a material but for its name; `None` for a law of one's own that is not declared.
@@ -90,20 +99,7 @@ fn fibres(family: &Fibres) -> String {
         }
         FibreStiffness::Linear { modulus } => format!("modulus = {}", number(modulus)),
     };
-    let direction = match &family.direction {
-        Direction::Uniform(direction) => format!("uniform = {}", vector(direction)),
-        Direction::About { point, axis, lines } => {
-            let (point, direction) = (vector(point), vector(axis));
-            let axis = format!("{{ point = {point}, direction = {direction} }}");
-            let turned = |turn: f64| format!(", turn = {}", number(degrees(turn)));
-            match *lines {
-                LinesAbout::Axial { turn } => format!("axial = {axis}{}", turned(turn)),
-                LinesAbout::Circumferential { turn } => {
-                    format!("circumferential = {axis}{}", turned(turn))
-                }
-                LinesAbout::Radial => format!("radial = {axis}"),
-            }
-        }
-    };
+    let direction: Vec<String> = stated(&family.direction.stated().values).collect();
+    let direction = direction.join(", ");
     format!("{{ {stiffness}, direction = {{ {direction} }} }}")
 }

@@ -4,7 +4,7 @@ use striae_law::bulk::Material;
 use striae_mesh::{ElementId, Face, Mesh, NodeId, Sets};
 use striae_solve::model::{BodyId, ContactMass, Formulation, Model};
 
-use super::value::{list, number, text, vector};
+use super::value::{lines, list, number, text, vector};
 use super::{Writer, law};
 
 /// Sets of the bodies: those of the meshes, and those that had no name.
@@ -195,12 +195,6 @@ fn mesh(mesh: &Mesh) -> String {
 /// Numbers of nodes.
 pub(super) fn corners(nodes: &[NodeId]) -> String {
     list(nodes.iter().map(|node| node.0.to_string()))
-}
-
-/// A list with a line for each item.
-pub(super) fn lines(items: impl Iterator<Item = String>) -> String {
-    let items = items.map(|item| format!("    {item},\n"));
-    format!("[\n{}]", items.collect::<String>())
 }
 
 /// Sets with their members, but for a set `all` of what decks call so by themselves.

@@ -1,11 +1,9 @@
 //! Pairs: sides, textures, friction; ties.
 
-use striae_declared::degrees;
 use striae_solve::model::{ContactSurface, Enforcement, Initial, Pair};
-use striae_surface::texture::{Axis, Lines, Paint};
+use striae_surface::texture::Paint;
 
-use super::mesh::lines;
-use super::value::{number, text, vector};
+use super::value::{number, text};
 use super::{Writer, law};
 
 impl Writer<'_> {
@@ -92,48 +90,19 @@ impl Writer<'_> {
         let surface = self.surface([&pair.a, &pair.b][side]);
         let texture = match &pair.textures[side] {
             None => String::new(),
-            Some(paint) => match texture(paint) {
+            Some(paint) => match law::texture(paint) {
                 Some(told) => format!(", texture = {told}"),
                 None => {
                     let part = format!("texture of pair `{}`", pair.name);
-                    self.refuse(part, "it is given at chosen nodes");
+                    let reason = match paint {
+                        Paint::Nodes { .. } => "it is given at chosen nodes",
+                        _ => "its lines are those of a formula that is not declared",
+                    };
+                    self.refuse(part, reason);
                     String::new()
                 }
             },
         };
         format!("{{ {surface}{texture} }}")
     }
-}
-
-fn texture(paint: &Paint) -> Option<String> {
-    let told = match paint {
-        Paint::Field(field) => {
-            let lines = match &field.lines {
-                Lines::Uniform(direction) => format!("uniform = {}", vector(direction)),
-                Lines::Circumferential(about) => format!("circumferential = {}", axis(about)),
-                Lines::Axial(along) => format!("axial = {}", axis(along)),
-                Lines::Radial(from) => format!("radial = {}", axis(from)),
-            };
-            format!("{lines}, turn = {}", number(degrees(field.turn)))
-        }
-        Paint::Nodal(directions) => {
-            format!("directions = {}", lines(directions.iter().map(vector)))
-        }
-        Paint::Points { directions, width } => {
-            let points = lines(directions.iter().map(|(at, direction)| {
-                let (at, direction) = (vector(at), vector(direction));
-                format!("{{ at = {at}, direction = {direction} }}")
-            }));
-            let width =
-                width.map_or_else(String::new, |width| format!(", width = {}", number(width)));
-            format!("points = {points}{width}")
-        }
-        Paint::Nodes { .. } => return None,
-    };
-    Some(format!("{{ {told} }}"))
-}
-
-fn axis(axis: &Axis) -> String {
-    let (point, direction) = (vector(&axis.point), vector(&axis.direction));
-    format!("{{ point = {point}, direction = {direction} }}")
 }

@@ -7,8 +7,8 @@ use striae_solve::{
 };
 
 use super::Writer;
-use super::mesh::{corners, lines};
-use super::value::{direction, list, number, text, vector};
+use super::mesh::corners;
+use super::value::{direction, lines, list, number, text, vector};
 
 impl Writer<'_> {
     /// A rigid body.

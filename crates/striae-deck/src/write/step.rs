@@ -6,8 +6,7 @@ use striae_solve::model::{
     RigidMotion, Step, Velocity,
 };
 
-use super::mesh::lines;
-use super::value::{list, number, text, varying, vector};
+use super::value::{lines, list, number, text, varying, vector};
 use super::{Writer, law};
 
 /// Names of the coordinates of a rigid body.

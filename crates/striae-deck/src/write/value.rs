@@ -27,6 +27,12 @@ pub(crate) fn list(items: impl IntoIterator<Item = String>) -> String {
     format!("[{}]", items.join(", "))
 }
 
+/// A list with a line for each item.
+pub(crate) fn lines(items: impl Iterator<Item = String>) -> String {
+    let items = items.map(|item| format!("    {item},\n"));
+    format!("[\n{}]", items.collect::<String>())
+}
+
 /// The components of a vector.
 pub(crate) fn vector(value: &Vec3) -> String {
     list([value.x, value.y, value.z].map(number))

@@ -17,7 +17,7 @@ pub fn verdict(text: &str) -> Verdict {
         Ok(deck)
             if fits(
                 &deck,
-                &striae_deck::json_schema(&striae_law::Laws::default()),
+                &striae_deck::json_schema(&striae_deck::Laws::default()),
             ) =>
         {
             Verdict::Accepted

@@ -12,8 +12,66 @@
 //! turned by the angle `t` about `e`, counter-clockwise seen from outside. On the axis, where
 //! there is no `e`, any direction across it is taken.
 
+use std::convert::Infallible;
+
 use nalgebra::Vector3;
 use serde::Serialize;
+use striae_declared::{ANY, Absent, Declared, Kind, Parameter, Statement, Values, degrees};
+
+/// Rotation of lines about the radius.
+const TURN: Parameter = Parameter::number(
+    "turn",
+    ANY,
+    "degrees",
+    "Angle by which the lines are rotated about the radius, counter-clockwise seen from outside.",
+)
+.or(Absent::Number(0.0));
+
+/// Directions of fibres that decks know by their keys.
+pub static DIRECTIONS: &[&Declared<Direction>] = &[&UNIFORM, &CIRCUMFERENTIAL, &AXIAL, &RADIAL];
+
+static UNIFORM: Declared<Direction> = Declared {
+    name: "uniform",
+    summary: "One direction.",
+    parameters: &[Parameter::direction(
+        "uniform",
+        "The direction, of any length.",
+    )],
+    build: |values| Ok(Direction::Uniform(values.array("uniform").into())),
+    fit: None,
+};
+
+static CIRCUMFERENTIAL: Declared<Direction> = Declared {
+    name: "circumferential",
+    summary: "Circles about an axis by the right-hand rule.",
+    parameters: &[Parameter::axis("circumferential", "The axis."), TURN],
+    build: |values| {
+        let turn = values.number("turn").to_radians();
+        let lines = LinesAbout::Circumferential { turn };
+        Ok(Direction::about(values.table("circumferential"), lines))
+    },
+    fit: None,
+};
+
+static AXIAL: Declared<Direction> = Declared {
+    name: "axial",
+    summary: "Parallels of an axis.",
+    parameters: &[Parameter::axis("axial", "The axis."), TURN],
+    build: |values| {
+        let turn = values.number("turn").to_radians();
+        let lines = LinesAbout::Axial { turn };
+        Ok(Direction::about(values.table("axial"), lines))
+    },
+    fit: None,
+};
+
+static RADIAL: Declared<Direction> = Declared {
+    name: "radial",
+    summary: "Rays away from an axis.",
+    parameters: &[Parameter::axis("radial", "The axis.")],
+    build: |values| Ok(Direction::about(values.table("radial"), LinesAbout::Radial)),
+    fit: None,
+};
 
 /// Direction of a family of fibres at rest.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -48,7 +106,43 @@ pub enum LinesAbout {
     Radial,
 }
 
+impl Kind for Direction {
+    type Refusal = Infallible;
+    type Fit = Infallible;
+}
+
 impl Direction {
+    fn about(axis: &Values, lines: LinesAbout) -> Self {
+        Self::About {
+            point: axis.array("point").into(),
+            axis: axis.array("direction").into(),
+            lines,
+        }
+    }
+
+    /// Returns the declared direction that this one is, with its values.
+    pub fn stated(&self) -> Statement {
+        let vector = |of: &Vector3<f64>| -> [f64; 3] { (*of).into() };
+        let (law, values) = match self {
+            Self::Uniform(direction) => (
+                UNIFORM.name,
+                Values::default().with("uniform", vector(direction)),
+            ),
+            Self::About { point, axis, lines } => {
+                let (law, turn) = match *lines {
+                    LinesAbout::Axial { turn } => (AXIAL.name, Some(turn)),
+                    LinesAbout::Circumferential { turn } => (CIRCUMFERENTIAL.name, Some(turn)),
+                    LinesAbout::Radial => (RADIAL.name, None),
+                };
+                let about = Values::default().with("point", vector(point));
+                let about = about.with("direction", vector(axis));
+                let values = Values::default().with(law, about);
+                (law, values.with_any(TURN.name, turn.map(degrees)))
+            }
+        };
+        Statement { law, values }
+    }
+
     /// The unit direction at a place of the body at rest.
     pub fn at(&self, place: &Vector3<f64>) -> Vector3<f64> {
         match self {

@@ -45,7 +45,7 @@ mod volumetric;
 pub use analysis::{Mode, TestState};
 pub use battery::{Violation, battery};
 pub use compact::CompactTangent;
-pub use direction::{Direction, LinesAbout};
+pub use direction::{DIRECTIONS, Direction, LinesAbout};
 pub use fibrous::{FibreStiffness, Fibres, Fibrous, InadmissibleFibres};
 pub use hardening::{HARDENING, Hardening, HardeningForm, InadmissibleHardening};
 pub use history::{Field, Past, Present};

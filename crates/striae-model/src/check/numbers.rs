@@ -217,8 +217,10 @@ fn of_pair(pair: &Pair, path: &Path, faults: &mut List) {
                 Lines::Uniform(direction) => {
                     faults.direction(path(), "the direction of a texture", direction);
                 }
-                Lines::Circumferential(axis) | Lines::Axial(axis) | Lines::Radial(axis) => {
-                    faults.direction(path(), "the direction of an axis", &axis.direction);
+                lines => {
+                    if let Some(axis) = lines.axis() {
+                        faults.direction(path(), "the direction of an axis", &axis.direction);
+                    }
                 }
             },
             Some(Paint::Points { directions, .. }) => {

@@ -65,19 +65,19 @@ from ._section import Section
 from ._spring import Spring
 from ._step import Condition, Dynamics, Increments, Step, gravity
 from ._sweep import Sweep, SweepPoint, sweep
-from ._texture import Axial, Circumferential, Nodal, Painted, Radial, Texture, Uniform
+from ._texture import Texture
+from ._textures import *
+from ._textures import __all__ as _textures
 from ._tie import Tie
 
 __all__ = [
     "Advice",
-    "Axial",
     "Body",
     "BodyResults",
     "BodySet",
     "Cavity",
     "CavityResults",
     "Check",
-    "Circumferential",
     "Condition",
     "Coulomb",
     "Course",
@@ -102,15 +102,12 @@ __all__ = [
     "Mesh",
     "Model",
     "ModelError",
-    "Nodal",
     "NormalAxis",
     "OwnFriction",
     "OwnMaterial",
-    "Painted",
     "Pair",
     "PairResults",
     "Plane",
-    "Radial",
     "Remark",
     "Rigid",
     "RigidBody",
@@ -136,7 +133,6 @@ __all__ = [
     "Texture",
     "Tie",
     "TieResults",
-    "Uniform",
     "contact",
     "differentiate",
     "fit_friction",
@@ -150,3 +146,4 @@ __all__ = [
 __all__ += _generators
 __all__ += _laws
 __all__ += _materials
+__all__ += _textures

@@ -20,7 +20,7 @@ class NormalAxis(Strict):
 
         normal: a vector along the axis, of any length.
         """
-        self.normal = _direction(normal, "normal")
+        self.normal = check.direction(normal, "normal")
         """A vector along the axis."""
 
     def __repr__(self) -> str:
@@ -38,7 +38,7 @@ class CylindricalAxes(Strict):
         axis: a vector along the axis, of any length.
         point: a point of the axis (length).
         """
-        self.axis = _direction(axis, "axis")
+        self.axis = check.direction(axis, "axis")
         """A vector along the axis."""
         self.point = check.vector(point, "point")
         """A point of the axis."""
@@ -48,13 +48,6 @@ class CylindricalAxes(Strict):
 
 
 Axes: TypeAlias = Union[Sequence[Vector], NormalAxis, CylindricalAxes]
-
-
-def _direction(value: Vector, path: str) -> list[float]:
-    found = check.vector(value, path)
-    if not any(found):
-        raise refuse(path, "a direction must not be the zero vector")
-    return found
 
 
 def vectors_of(axes: Optional[Axes], path: str) -> tuple[str, list[list[float]]]:
@@ -67,4 +60,4 @@ def vectors_of(axes: Optional[Axes], path: str) -> tuple[str, list[list[float]]]
         return "cylindrical", [axes.point, axes.axis]
     if len(axes) != 2:
         raise refuse(path, f"two vectors are needed, but there are {len(axes)}")
-    return "two", [_direction(one, path) for one in axes]
+    return "two", [check.direction(one, path) for one in axes]

@@ -140,6 +140,25 @@ def vector(value: Any, path: str, count: int = 3) -> list[float]:
     return [float(number) for number in found]
 
 
+def direction(value: Any, path: str) -> list[float]:
+    """Three finite numbers that are not all zero."""
+    found = vector(value, path)
+    if not any(found):
+        raise refuse(path, "a direction must not be the zero vector")
+    return found
+
+
+def columns(**given: Any) -> list[tuple[float, ...]]:
+    """Rows of arrays of shape (n, 3) that are side by side."""
+    arrays = {path: rows(value, path) for path, value in given.items()}
+    first, *others = arrays
+    for path in others:
+        if len(arrays[path]) != len(arrays[first]):
+            told = f"there are {len(arrays[path])} for {len(arrays[first])} {first}"
+            raise refuse(path, told)
+    return [tuple(row) for row in np.hstack(list(arrays.values())).tolist()]
+
+
 def counts(value: Any, path: str, count: int = 3) -> list[int]:
     """``count`` integers of at least 1."""
     found = integers(value, path)

@@ -11,7 +11,8 @@ from ._check import Vector
 from ._errors import refuse
 from ._material import Material, Rubber
 from ._materials import NeoHookean
-from ._texture import Axial, Circumferential, Radial, Texture, Uniform, texture
+from ._texture import Texture, texture
+from ._textures import Axial, Circumferential, Radial, Uniform
 
 Stiffness = Union[tuple[float, float, float], float]
 

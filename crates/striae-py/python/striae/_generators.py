@@ -209,7 +209,7 @@ def annulus(
         "width": check.number(width, "width"),
         "divisions": check.counts(divisions, "divisions"),
         "centre": check.vector(centre, "centre"),
-        "axis": check.vector(axis, "axis"),
+        "axis": check.direction(axis, "axis"),
         "radial_grading": None if radial_grading is None else check.table(radial_grading, "radial_grading"),
         "axial_grading": None if axial_grading is None else check.table(axial_grading, "axial_grading"),
         "refinement": None if refinement is None else check.row(refinement, "refinement", 2),
@@ -248,7 +248,7 @@ def cylinder(
         "height": check.number(height, "height"),
         "divisions": check.counts(divisions, "divisions"),
         "base": check.vector(base, "base"),
-        "axis": check.vector(axis, "axis"),
+        "axis": check.direction(axis, "axis"),
         "axial_grading": None if axial_grading is None else check.table(axial_grading, "axial_grading"),
         "part": check.word(part, ("whole", "quarter"), "part"),
     }
@@ -278,6 +278,6 @@ def torus(
         "section_radius": check.number(section_radius, "section_radius"),
         "divisions": check.counts(divisions, "divisions"),
         "centre": check.vector(centre, "centre"),
-        "axis": check.vector(axis, "axis"),
+        "axis": check.direction(axis, "axis"),
     }
     return Mesh._generated("torus", values)

@@ -146,9 +146,7 @@ class Plane(Rigid):
         inertia: principal moments about the coordinate axes through the reference point (mass
             times length squared).
         """
-        across = check.vector(normal, "normal")
-        if not any(across):
-            raise refuse("normal", "a direction must not be the zero vector")
+        across = check.direction(normal, "normal")
         made = native.Rigid.plane(check.name(name, "name"), check.vector(point, "point"), across)
         self.texture = _texture(texture)
         self._take(name, made, reference, mass, inertia)

@@ -5,7 +5,7 @@ use striae_mesh::{NodeId, Vec3};
 use striae_surface::{
     node::SurfaceNode,
     normal::nodal_normals,
-    texture::{Conditioning, Field, Lines, Paint, Texture, TextureError},
+    texture::{Conditioning, Field, Paint, Texture, TextureError},
     topology::Surface,
 };
 
@@ -24,8 +24,8 @@ pub enum Undirected {
 impl Undirected {
     /// Reason why a field has no direction at a point.
     pub(crate) fn of(field: &Field, x: &Vec3) -> Self {
-        match &field.lines {
-            Lines::Circumferential(axis) | Lines::Radial(axis) => {
+        match field.lines.pole() {
+            Some(axis) => {
                 let arm = x - axis.point;
                 let along = axis.direction.normalize();
                 let off = (arm - along * along.dot(&arm)).norm();
@@ -34,7 +34,7 @@ impl Undirected {
                     false => Self::AlongNormal,
                 }
             }
-            Lines::Uniform(_) | Lines::Axial(_) => Self::AlongNormal,
+            None => Self::AlongNormal,
         }
     }
 
@@ -91,7 +91,7 @@ pub(super) fn painted(
 ) -> Result<(SideTexture, Option<Conditioning>), ProblemError> {
     let surface = match (geometry, paint) {
         (Geometry::Plane { .. }, Paint::Field(field)) => {
-            return Ok((SideTexture::Plane(*field), None));
+            return Ok((SideTexture::Plane(field.clone()), None));
         }
         (Geometry::Plane { .. }, _) => {
             return Err(ProblemError::PlaneTexture {

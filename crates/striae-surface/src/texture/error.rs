@@ -100,3 +100,13 @@ impl TextureError {
         }
     }
 }
+
+/// Reason why a texture refuses a value.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{reason}")]
+pub struct InadmissibleTexture {
+    /// Parameter that it is about, if it is about one.
+    pub parameter: Option<&'static str>,
+    /// Reason, which names the value.
+    pub reason: String,
+}

@@ -28,7 +28,8 @@ fn on_plane(model: &Model, pair: &Pair, advice: &mut Advice) {
         return;
     };
     let rigid = &model.rigid_surfaces[rigid.0];
-    let (RigidShape::Plane { normal, .. }, Lines::Uniform(direction)) = (&rigid.shape, field.lines)
+    let (RigidShape::Plane { normal, .. }, Lines::Uniform(direction)) =
+        (&rigid.shape, &field.lines)
     else {
         return;
     };

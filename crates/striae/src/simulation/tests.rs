@@ -3,12 +3,9 @@
 use std::{collections::BTreeMap, fs, path::PathBuf};
 
 use serde_json::Value;
-use striae_deck::Reader;
+use striae_deck::{Laws, Reader};
 use striae_declared::{Declared, NO_UNIT, POSITIVE, Parameter};
-use striae_law::{
-    Laws,
-    friction::{FactorLane, FactorLaw, FactorPoint, FactorRange, Friction, OwnFactor},
-};
+use striae_law::friction::{FactorLane, FactorLaw, FactorPoint, FactorRange, Friction, OwnFactor};
 use striae_output::{Existing, recorder::Recorder};
 
 use super::*;

@@ -9,7 +9,7 @@ use super::{
 };
 use crate::{
     faults::FaultList,
-    lower::axis::nonzero,
+    lower::nonzero::nonzero,
     raw,
     read::At,
     value::{Text, vector},

@@ -4,7 +4,7 @@ use super::found::Found;
 use crate::{
     fault::FaultKind,
     faults::FaultList,
-    lower::axis::nonzero,
+    lower::nonzero::nonzero,
     raw,
     read::At,
     value::{Number, vector},

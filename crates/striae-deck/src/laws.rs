@@ -1,14 +1,18 @@
-//! Laws that can be called by their names.
+//! Laws and textures that decks may name.
 
-use crate::bulk::{self, Material};
-use crate::friction::{self, Friction};
 use striae_declared::Declared;
+use striae_law::{
+    bulk::{self, Material},
+    friction::{self, Friction},
+};
+use striae_surface::texture::{Paint, TEXTURES};
 
-/// Laws that a deck may name: those of this crate, and others that are added.
+/// Laws and textures that a deck may name: those of the library, and others that are added.
 ///
 /// ```
+/// use striae_deck::Laws;
 /// use striae_declared::{Declared, POSITIVE, Parameter};
-/// use striae_law::{Laws, friction::Friction};
+/// use striae_law::friction::Friction;
 ///
 /// static SLIPPERY: Declared<Friction> = Declared {
 ///     name: "slippery",
@@ -25,6 +29,7 @@ use striae_declared::Declared;
 pub struct Laws {
     friction: Vec<&'static Declared<Friction>>,
     bulk: Vec<&'static Declared<Material>>,
+    textures: Vec<&'static Declared<Paint>>,
 }
 
 impl Default for Laws {
@@ -32,6 +37,7 @@ impl Default for Laws {
         Self {
             friction: friction::LAWS.to_vec(),
             bulk: bulk::LAWS.to_vec(),
+            textures: TEXTURES.to_vec(),
         }
     }
 }
@@ -49,6 +55,20 @@ impl Laws {
         self.bulk.retain(|known| known.name != law.name);
         self.bulk.push(law);
         self
+    }
+
+    /// Returns the laws with one more texture, in place of one of the same name.
+    ///
+    /// Tables tell textures apart by their keys, so each needs one that no other texture has.
+    pub fn with_texture(mut self, texture: &'static Declared<Paint>) -> Self {
+        self.textures.retain(|known| known.name != texture.name);
+        self.textures.push(texture);
+        self
+    }
+
+    /// Returns the textures.
+    pub fn textures(&self) -> &[&'static Declared<Paint>] {
+        &self.textures
     }
 
     /// Returns the bulk laws.
