@@ -58,7 +58,16 @@ const LADDER: &[Row] = &[
     Row {
         name: "striae-sparse",
         own: &[],
-        outside: &["faer", "metis-sys", "pulp", "rayon", "thiserror"],
+        // `bitflags` and `syn`, as `memchr` below, for their features alone.
+        outside: &[
+            "bitflags",
+            "faer",
+            "metis-sys",
+            "pulp",
+            "rayon",
+            "syn",
+            "thiserror",
+        ],
     },
     Row {
         name: "striae-condensed",
@@ -162,7 +171,7 @@ const LADDER: &[Row] = &[
             "striae-solve",
             "striae-surface",
         ],
-        outside: &["serde_json", "thiserror", "toml"],
+        outside: &["memchr", "serde_json", "thiserror", "toml"],
     },
     Row {
         name: "striae",

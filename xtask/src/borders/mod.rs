@@ -5,10 +5,12 @@
 //! every source file for what a dependency cannot tell: files touched outside
 //! the crates of input and output, output below the program, unsafe code, files
 //! that are too long; [`circles`] follows the imports between the files of a crate;
-//! [`openings`] reads how doc comments begin, in Rust and Python.
+//! [`openings`] reads how doc comments begin, in Rust and Python; [`features`] compares the features
+//! of dependencies between builds.
 
 mod circles;
 mod dependencies;
+mod features;
 mod imports;
 mod metadata;
 mod openings;
@@ -31,6 +33,7 @@ use source::{Code, Place};
 pub fn check() -> Result<(), Fault> {
     let workspace = metadata::workspace()?;
     let mut breaches = dependencies::breaches(&workspace.packages);
+    breaches.extend(features::breaches()?);
     let mut count = 0;
     for package in &workspace.packages {
         let files = sources(&package.folder, &["rs"])?;

@@ -43,7 +43,7 @@ impl Iteration {
     }
 }
 
-/// Linearisation of the slip rows. It decides how the solution is found, not which one it is.
+/// Linearisation of the slip rows, which decides how the solution is found, not which one it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Linearisation {
     /// `r_t` over its default.
@@ -63,9 +63,9 @@ impl Linearisation {
 /// Bound of friction in an iteration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bound {
-    /// It follows the pressures of the iteration.
+    /// Bound that follows the pressures of the iteration.
     Coupled,
-    /// It is that of the pressures before.
+    /// Bound of the pressures before.
     Lagging,
 }
 

@@ -18,7 +18,7 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// Returns the axis that values of [`Parameter::axis`] state.
+    /// Returns the axis that values of [`Parameter::axis`](striae_declared::Parameter::axis) state.
     pub fn stated(values: &Values, name: &str) -> Self {
         let axis = values.table(name);
         Self {
