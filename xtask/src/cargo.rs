@@ -42,6 +42,26 @@ pub fn cargo(arguments: &[&str], environment: &[(&str, &str)]) -> Result<(), Fau
     run(Path::new("cargo"), arguments, environment)
 }
 
+/// Returns the standard output of cargo, called with arguments.
+///
+/// # Errors
+/// When it cannot be started or fails.
+pub fn answer(arguments: &[&str]) -> Result<Vec<u8>, Fault> {
+    let command = format!("cargo {}", arguments.join(" "));
+    let output = Command::new("cargo").args(arguments).output();
+    let output = output.map_err(|cause| Fault::Start {
+        command: command.clone(),
+        cause,
+    })?;
+    match output.status.success() {
+        true => Ok(output.stdout),
+        false => Err(Fault::Failed {
+            command,
+            status: output.status,
+        }),
+    }
+}
+
 /// Runs a program with arguments and an environment to its end.
 ///
 /// # Errors

@@ -4,9 +4,9 @@
 //! dependencies that ask others for more; `striae-sparse` and `striae-deck` ask for the same, so
 //! that one build serves all.
 
-use std::{collections::BTreeSet, process::Command};
+use std::collections::BTreeSet;
 
-use crate::{breach::Breach, fault::Fault};
+use crate::{breach::Breach, cargo, fault::Fault};
 
 /// Build with the dependencies of tests.
 const TESTS: [&str; 3] = ["--workspace", "--edges", "normal,build,dev"];
@@ -42,17 +42,8 @@ pub fn breaches() -> Result<Vec<Breach>, Fault> {
 /// Packages of a build, each with its version and features.
 fn features(arguments: &[&str]) -> Result<BTreeSet<String>, Fault> {
     const FORMAT: [&str; 5] = ["tree", "--prefix", "none", "--format", "{p} {f}"];
-    let command = format!("cargo tree {}", arguments.join(" "));
-    let output = Command::new("cargo").args(FORMAT).args(arguments).output();
-    let output = output.map_err(|cause| Fault::Start {
-        command: command.clone(),
-        cause,
-    })?;
-    if !output.status.success() {
-        let status = output.status;
-        return Err(Fault::Failed { command, status });
-    }
-    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    let text = cargo::answer(&[&FORMAT[..], arguments].concat())?;
+    let text = String::from_utf8_lossy(&text);
     let lines = text.lines().map(|line| line.trim_end_matches(" (*)"));
     Ok(lines.map(str::to_owned).collect())
 }

@@ -1,10 +1,10 @@
 //! The crates of the workspace and what they depend on, from `cargo metadata`.
 
-use std::{path::PathBuf, process::Command};
+use std::path::PathBuf;
 
 use serde_json::Value;
 
-use crate::fault::Fault;
+use crate::{cargo, fault::Fault};
 
 /// The workspace.
 pub struct Workspace {
@@ -48,18 +48,8 @@ pub enum Kind {
 /// # Errors
 /// When cargo does not answer, or not as expected.
 pub fn workspace() -> Result<Workspace, Fault> {
-    const ARGUMENTS: [&str; 4] = ["metadata", "--no-deps", "--format-version", "1"];
-    let command = format!("cargo {}", ARGUMENTS.join(" "));
-    let output = Command::new("cargo").args(ARGUMENTS).output();
-    let output = output.map_err(|cause| Fault::Start {
-        command: command.clone(),
-        cause,
-    })?;
-    if !output.status.success() {
-        let status = output.status;
-        return Err(Fault::Failed { command, status });
-    }
-    read(&output.stdout).map_err(Fault::Metadata)
+    let json = cargo::answer(&["metadata", "--no-deps", "--format-version", "1"])?;
+    read(&json).map_err(Fault::Metadata)
 }
 
 fn read(json: &[u8]) -> Result<Workspace, String> {
