@@ -58,10 +58,11 @@ const LADDER: &[Row] = &[
     Row {
         name: "striae-sparse",
         own: &[],
-        // `bitflags` and `syn`, as `memchr` below, for their features alone.
+        // `bitflags`, `libc` and `syn`, as `memchr` below, for their features alone.
         outside: &[
             "bitflags",
             "faer",
+            "libc",
             "metis-sys",
             "pulp",
             "rayon",

@@ -9,16 +9,13 @@ use std::collections::BTreeSet;
 use crate::{breach::Breach, cargo, fault::Fault};
 
 /// Build with the dependencies of tests.
-const TESTS: [&str; 3] = ["--workspace", "--edges", "normal,build,dev"];
+const TESTS: [&str; 3] = ["--workspace", "--edges", "normal,dev"];
 /// Builds that share it.
 const OTHERS: [(&str, [&str; 4]); 2] = [
-    (
-        "program",
-        ["--workspace", "--edges", "normal,build", "--locked"],
-    ),
+    ("program", ["--workspace", "--edges", "normal", "--locked"]),
     (
         "wheel",
-        ["--package=striae-py", "--edges", "normal,build", "--locked"],
+        ["--package=striae-py", "--edges", "normal", "--locked"],
     ),
 ];
 
