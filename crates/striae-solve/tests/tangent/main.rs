@@ -21,6 +21,7 @@ mod contact;
 mod creeping;
 mod factored;
 mod guided;
+mod linearised;
 mod springs;
 mod system;
 mod textured;

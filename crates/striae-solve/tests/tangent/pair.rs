@@ -1,4 +1,6 @@
 //! A contact pair with a frozen traction field as a function of its unknowns.
+//!
+//! Longer than other files, as states, derivatives and statuses are of one function.
 
 use nalgebra::{DMatrix, DVector};
 use striae_contact::{
@@ -56,6 +58,8 @@ pub struct PairFunction<'a> {
     tau_n: [Vec<[f64; 2]>; 2],
     /// Status in the iteration before, by kept node.
     pub before: Vec<Status>,
+    /// Number of times that nodes have begun to slip.
+    pub begun: u32,
     /// Positions that are prescribed.
     pub prescribed: Prescribed,
     pub selection: Selection,
@@ -92,10 +96,21 @@ impl<'a> PairFunction<'a> {
             elapsed,
             tau_n,
             before: vec![Status::Slip; selection.kept().len()],
+            begun: 0,
             prescribed: free,
             selection,
             iteration: Iteration::LATER,
         }
+    }
+
+    /// Numbers of the tangential unknowns of the kept nodes.
+    pub fn tangential(&self) -> impl Iterator<Item = [usize; 2]> {
+        let numbering = self.context.pairs[0].numbering();
+        let kept = self.selection.kept().iter();
+        kept.map(move |kept| {
+            let first = numbering.traction(kept.side, kept.node) as usize;
+            [first + 1, first + 2]
+        })
     }
 
     fn len(&self) -> usize {
@@ -124,6 +139,7 @@ impl<'a> PairFunction<'a> {
         let mut labels = self.counts.map(|count| vec![Label::default(); count]);
         for (kept, before) in self.selection.kept().iter().zip(&self.before) {
             labels[kept.side][kept.node].status = *before;
+            labels[kept.side][kept.node].begun = self.begun;
         }
         Tractions {
             nodes: Side::BOTH.map(|side| {
@@ -146,7 +162,8 @@ impl<'a> PairFunction<'a> {
         }
     }
 
-    fn evaluation(&self, u: &DVector<f64>) -> Evaluation {
+    /// Contact of the pair.
+    pub fn evaluation(&self, u: &DVector<f64>) -> Evaluation {
         evaluate(
             &self.configuration(u),
             &configuration(self.context, &self.start),
@@ -163,7 +180,8 @@ impl<'a> PairFunction<'a> {
         .unwrap()
     }
 
-    fn residual(&self, u: &DVector<f64>) -> DVector<f64> {
+    /// Residual by unknown.
+    pub fn residual(&self, u: &DVector<f64>) -> DVector<f64> {
         self.sum(&self.evaluation(u))
     }
 
@@ -177,7 +195,8 @@ impl<'a> PairFunction<'a> {
         residual
     }
 
-    fn tangent(&self, u: &DVector<f64>) -> DMatrix<f64> {
+    /// Derivatives of the residual that the terms state.
+    pub fn tangent(&self, u: &DVector<f64>) -> DMatrix<f64> {
         let mut tangent = DMatrix::zeros(self.len(), self.len());
         for term in &self.evaluation(u).terms {
             // A node that opposes nothing depends on nothing.
