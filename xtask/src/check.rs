@@ -140,9 +140,13 @@ pub fn bench(arguments: &[String]) -> Result<(), Fault> {
 /// # Errors
 /// When they cannot be built or some fail.
 pub fn mutants(arguments: &[String]) -> Result<(), Fault> {
-    let mut all: Vec<&str> = ["run", "--release", "-p", "striae-mutants", "--"].into();
-    all.extend(arguments.iter().map(String::as_str));
-    cargo(&all, &[])
+    let program = "striae-mutants";
+    cargo(
+        &["build", "--release", "--workspace", "--bin", program],
+        &[],
+    )?;
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    cargo::run(&release().join(program), &words, &[])
 }
 
 fn timed(name: &str, check: impl FnOnce() -> Result<(), Fault>) -> Result<(), Fault> {

@@ -53,7 +53,9 @@ pub fn check() -> Result<(), Fault> {
     let main = environment(newest)?;
     pip(&main, &["maturin>=1.7,<2", "mypy", "basedpyright"])?;
     let out = wheels.display().to_string();
-    run(main.join("maturin"), &["build", "--release", "--out", &out])?;
+    // As it is published.
+    let wheel = ["build", "--profile", "dist", "--out", &out];
+    run(main.join("maturin"), &wheel)?;
     cargo::program()?;
     pip(&main, &["pyvista"])?;
     test(&main, &wheels)?;

@@ -8,14 +8,7 @@ use crate::{ElementId, Face, Mesh, MeshError, NodeId, mesh::face_nodes};
 impl Mesh {
     /// Faces that belong to one element only, in ascending order.
     pub fn boundary_faces(&self) -> Vec<Face> {
-        let mut boundary: Vec<Face> = self
-            .faces_by_nodes()
-            .chunk_by(|a, b| a.0 == b.0)
-            .filter(|group| group.len() == 1)
-            .map(|group| group[0].1)
-            .collect();
-        boundary.sort_unstable();
-        boundary
+        alone(&self.faces_by_nodes())
     }
 
     /// Boundary faces with all their nodes in `nodes`, in ascending order.
@@ -63,28 +56,63 @@ impl Mesh {
             .find(|group| group.len() > 2)
         {
             Some(group) => Err(MeshError::CrowdedFace { face: group[0].1 }),
-            None => Ok(self.boundary_faces()),
+            None => Ok(alone(&faces)),
         }
     }
 
     /// All faces of all elements, sorted by their sorted nodes.
     fn faces_by_nodes(&self) -> Vec<([NodeId; 4], Face)> {
-        let mut faces = Vec::new();
+        // Few faces share their first node, so that the rest is sorted in linear time.
+        let mut ends = vec![0; self.positions.len() + 1];
+        self.each_face(|nodes, _| ends[nodes[0].index() + 1] += 1);
+        let mut total = 0;
+        for end in &mut ends {
+            total += *end;
+            *end = total;
+        }
+        let none = Face {
+            element: ElementId::new(0),
+            side: 0,
+        };
+        let mut faces = vec![([NodeId::new(0); 4], none); total];
+        // The entry of a node begins at its first place and ends at that of the next node.
+        self.each_face(|nodes, face| {
+            let place = &mut ends[nodes[0].index()];
+            faces[*place] = (nodes, face);
+            *place += 1;
+        });
+        for of_node in faces.chunk_by_mut(|a, b| a.0[0] == b.0[0]) {
+            of_node.sort_unstable();
+        }
+        faces
+    }
+
+    /// Visits all faces of all elements with their sorted nodes.
+    fn each_face(&self, mut visit: impl FnMut([NodeId; 4], Face)) {
         let mut element = 0;
         for block in &self.blocks {
             let sides = block.kind.shape().faces.len() as u8;
             for at in 0..block.len() {
                 let id = ElementId::new(element + at);
-                faces.extend((0..sides).map(|side| {
-                    let nodes = face_nodes(block, at, side);
-                    (sorted_face(nodes), Face { element: id, side })
-                }));
+                for side in 0..sides {
+                    let nodes = sorted_face(face_nodes(block, at, side));
+                    visit(nodes, Face { element: id, side });
+                }
             }
             element += block.len();
         }
-        faces.sort_unstable();
-        faces
     }
+}
+
+/// Faces of one element, in ascending order.
+fn alone(sorted: &[([NodeId; 4], Face)]) -> Vec<Face> {
+    let mut alone: Vec<Face> = sorted
+        .chunk_by(|a, b| a.0 == b.0)
+        .filter(|group| group.len() == 1)
+        .map(|group| group[0].1)
+        .collect();
+    alone.sort_unstable();
+    alone
 }
 
 /// Nodes of a face in the order that two elements agree on: ascending, and a triangle

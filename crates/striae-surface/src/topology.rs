@@ -1,7 +1,5 @@
 //! Facets and nodes of a surface and how they hang together.
 
-use std::collections::BTreeMap;
-
 use crate::node::SurfaceNode;
 use striae_mesh::{FacetId, NodeId, Vec3};
 
@@ -151,7 +149,7 @@ impl Faces {
         let mut faces = Self {
             parent: (0..4 * facets.len()).collect(),
         };
-        let mut edges: BTreeMap<[NodeId; 2], Vec<(usize, [usize; 2])>> = BTreeMap::new();
+        let mut edges = Vec::with_capacity(4 * facets.len());
         for (facet, nodes) in facets.iter().enumerate() {
             let count = if nodes[2] == nodes[3] { 3 } else { 4 };
             if count == 3 {
@@ -163,13 +161,13 @@ impl Faces {
                     true => [at, next],
                     false => [next, at],
                 };
-                let edge = edges.entry(ends.map(|at| nodes[at])).or_default();
-                edge.push((facet, ends));
+                edges.push((ends.map(|at| nodes[at]), facet, ends));
             }
         }
-        for around in edges.values() {
-            for (at, &(first, ends)) in around.iter().enumerate() {
-                for &(second, others) in &around[at + 1..] {
+        edges.sort_unstable();
+        for around in edges.chunk_by(|a, b| a.0 == b.0) {
+            for (at, &(_, first, ends)) in around.iter().enumerate() {
+                for &(_, second, others) in &around[at + 1..] {
                     if normals[first].dot(&normals[second]) >= cosine {
                         for (end, other) in ends.into_iter().zip(others) {
                             faces.join(4 * first + end, 4 * second + other);
@@ -223,22 +221,22 @@ fn corners_of_node(node_count: usize, facets: &[[SurfaceNode; 4]]) -> Vec<Vec<Co
 }
 
 fn boundary_edges(facets: &[[SurfaceNode; 4]]) -> Vec<BoundaryEdge> {
-    let mut uses: BTreeMap<[SurfaceNode; 2], Vec<BoundaryEdge>> = BTreeMap::new();
+    let mut uses = Vec::with_capacity(4 * facets.len());
     for (index, facet) in facets.iter().enumerate() {
         let ring = distinct_corners(facet);
         for (position, &start) in ring.iter().enumerate() {
             let end = ring[(position + 1) % ring.len()];
-            uses.entry([start.min(end), start.max(end)])
-                .or_default()
-                .push(BoundaryEdge {
-                    nodes: [start, end],
-                    facet: FacetId::new(index),
-                });
+            let edge = BoundaryEdge {
+                nodes: [start, end],
+                facet: FacetId::new(index),
+            };
+            uses.push(([start.min(end), start.max(end)], edge));
         }
     }
-    uses.into_values()
+    uses.sort_unstable_by_key(|(ends, _)| *ends);
+    uses.chunk_by(|a, b| a.0 == b.0)
         .filter(|edges| edges.len() == 1)
-        .map(|edges| edges[0])
+        .map(|edges| edges[0].1)
         .collect()
 }
 

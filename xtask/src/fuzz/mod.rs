@@ -8,6 +8,7 @@
 //! --seconds N       time of each target; 60
 //! --targets NAMES   with commas; all
 //! --jobs N          targets at a time; 2
+//! --seed N          first random number of each search; another one each time
 //! --minimise        no search: the corpus of the repository becomes the least that reaches the
 //!                   same code as all inputs so far
 //! ```
@@ -50,6 +51,7 @@ struct Options {
     time: Duration,
     targets: Vec<String>,
     jobs: usize,
+    seed: Option<u32>,
     task: Task,
 }
 
@@ -139,7 +141,7 @@ fn all(place: &Place, options: &Options) -> Result<Vec<Outcome>, Fault> {
             .next()
     };
     let work = || {
-        let outcomes = std::iter::from_fn(next).map(|target| searched(place, target, options.time));
+        let outcomes = std::iter::from_fn(next).map(|target| searched(place, target, options));
         outcomes.collect::<Result<Vec<_>, _>>()
     };
     thread::scope(|scope| {
@@ -182,6 +184,7 @@ impl Options {
             time: Duration::from_secs(60),
             targets: TARGETS.map(str::to_owned).into(),
             jobs: 2,
+            seed: None,
             task: Task::Search,
         };
         let mut rest = arguments.iter();
@@ -210,6 +213,7 @@ impl Options {
                     let jobs = value.parse().ok().filter(|&jobs| jobs > 0);
                     options.jobs = jobs.ok_or_else(wrong)?;
                 }
+                "--seed" => options.seed = Some(value.parse().map_err(|_| wrong())?),
                 _ => return Err(Fault::Option(format!("`{name}` is not an option of fuzz"))),
             }
         }

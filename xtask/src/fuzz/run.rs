@@ -4,14 +4,14 @@ use std::{
     fs::{self, File},
     path::{Path, PathBuf},
     process::Command,
-    time::{Duration, Instant},
+    time::Instant,
 };
 
-use super::Place;
+use super::{Options, Place};
 use crate::fault::Fault;
 
 /// Times that a target begins again after an input has ended its process.
-const STARTS: usize = 10;
+const STARTS: u32 = 10;
 /// Memory that an input may take, in megabytes.
 const MEMORY: u64 = 2000;
 /// Addresses that the process may reserve, in kilobytes: threads reserve more than they use.
@@ -41,19 +41,33 @@ pub struct Outcome {
 }
 
 /// Searches for the given time, again after inputs that end the process.
-pub fn searched(place: &Place, target: &str, time: Duration) -> Result<Outcome, Fault> {
+pub fn searched(place: &Place, target: &str, options: &Options) -> Result<Outcome, Fault> {
     let begun = Instant::now();
     let mut outcome = Outcome {
         target: target.to_owned(),
         ..Outcome::default()
     };
     for start in 0..STARTS {
-        let left = time.saturating_sub(begun.elapsed()).as_secs_f64().ceil();
+        let left = options
+            .time
+            .saturating_sub(begun.elapsed())
+            .as_secs_f64()
+            .ceil();
         if left == 0.0 {
             break;
         }
         let log = place.of("logs", &format!("{target}-{start}"));
-        let ended = started(place, target, &log, &[&format!("-max_total_time={left}")])?;
+        let time = format!("-max_total_time={left}");
+        // A search that begins again is not to meet the same end.
+        let seed = options
+            .seed
+            .map(|seed| format!("-seed={}", seed.wrapping_add(start)));
+        let own: Vec<&str> = [&time]
+            .into_iter()
+            .chain(&seed)
+            .map(String::as_str)
+            .collect();
+        let ended = started(place, target, &log, &own)?;
         let text = fs::read(&log).map_err(unreadable(&log))?;
         outcome.add(&String::from_utf8_lossy(&text));
         if ended {

@@ -3,7 +3,7 @@
 use striae_contact::{
     body_edge::beyond_edges,
     interference::{Fibre, fibres, lengths},
-    pair::{Behind, End},
+    pair::{Behind, End, Geometry},
     side::Side,
 };
 use striae_mesh::{NodeId, Vec3};
@@ -22,10 +22,16 @@ pub(crate) fn add_fibres(model: &Model, pairs: &mut [PairGeometry]) {
     };
     let mut skins: Vec<Option<Surface>> = vec![None; model.bodies.len()];
     for pair in pairs {
+        // A plane has no nodes that could come out of a thin body on its other side.
+        let has_plane =
+            (pair.contact.sides.iter()).any(|side| matches!(side.geometry, Geometry::Plane { .. }));
         pair.fibres = Side::BOTH.map(|side| {
             let Some(surface) = pair.contact.sides[side].surface() else {
                 return Vec::new();
             };
+            if has_plane {
+                return vec![None; surface.facets().len()];
+            }
             let Some(body) = pair.bodies[side] else {
                 let x = &pair.rigid_reference;
                 return fibres(surface, x, surface, x);

@@ -1,7 +1,6 @@
-//! Textures that have no direction on their surface.
+//! Textures that nearly have no direction on their surface.
 
 use striae_model::{ContactSurface, Model, Pair, RigidShape};
-use striae_solve::painting;
 use striae_surface::texture::{Lines, Paint};
 
 use super::{Advice, Topic};
@@ -11,12 +10,8 @@ const ALONG: f64 = 1e-6;
 /// Sine from which on the direction is doubtful: six degrees.
 const NEARLY: f64 = 0.1;
 
-/// Notes textures that cannot be painted, and those nearly along the normal of a plane.
+/// Notes textures nearly along the normal of a plane; those along it are refused with the model.
 pub(super) fn look(model: &Model, advice: &mut Advice) {
-    for fault in painting::faults(model) {
-        let name = &model.pairs[fault.pair].name;
-        advice.fault(Topic::Texture, name, fault.error.to_string());
-    }
     for pair in &model.pairs {
         on_plane(model, pair, advice);
     }
