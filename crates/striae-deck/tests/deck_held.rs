@@ -255,6 +255,63 @@ fn facing_is_judged_before_overlap() {
 }
 
 #[test]
+fn faces_that_cannot_touch_are_told_before_overlap() {
+    // Perpendicular faces of bodies that overlap, back to back, and both outer faces.
+    let outer = |facets: &str| format!("facets = \"{facets}\" }}\nfriction");
+    let cases = [
+        [
+            "mesh = { generator = \"block\", origin = [5, 5, 10]",
+            "mesh = { generator = \"block\", origin = [-2, 5, 7]",
+            "xmin",
+            "90 degrees apart",
+        ],
+        [
+            "origin = [5, 5, 10]",
+            "origin = [5, 5, 5]",
+            "zmax",
+            "0 degrees apart",
+        ],
+        [
+            "origin = [5, 5, 10]",
+            "origin = [5, 5, 10]",
+            "zmax",
+            "0 degrees apart",
+        ],
+    ];
+    for [origin, other, facets, angle] in cases {
+        let found = told(&[
+            [origin, other],
+            ["facets = \"zmin\" }\nfriction", &outer(facets)],
+        ]);
+        let found = found.expect("a fault");
+        for words in ["faces away from that of", angle] {
+            assert!(found.contains(words), "{found}");
+        }
+        assert!(!found.contains("inside"), "no talk of overlap: {found}");
+    }
+    // A plane whose normal points into the body that stands on it.
+    let plane = "[[rigid]]\nname = \"floor\"\nplane = { point = [0, 0, 10], normal = [0, 0, -1] }\n[[pair]]\nname = \"joint\"";
+    refused(
+        &[
+            ["[[pair]]\nname = \"joint\"", plane],
+            [
+                "a = { body = \"lower\", facets = \"zmax\" }",
+                "a = { body = \"upper\", facets = \"zmin\" }",
+            ],
+            [
+                "b = { body = \"upper\", facets = \"zmin\" }",
+                "b = { rigid = \"floor\" }",
+            ],
+            [LOWER, ""],
+        ],
+        &[
+            "faces away from that of `floor`",
+            "Reverse the normal of `floor`",
+        ],
+    );
+}
+
+#[test]
 fn a_curved_tool_turned_inside_out_is_named() {
     let mut positions = Vec::new();
     let mut facets = [Vec::new(), Vec::new()];

@@ -27,14 +27,15 @@ use striae_surface::{node::SurfaceNode, topology::Surface};
 
 use crate::{
     interference::thickness_with,
-    model::{ContactSurface, Initial, Model, PairId},
+    model::{ContactSurface, Initial, Model, PairId, RigidShape},
     problem::{PairGeometry, add_fibres, pair_geometry},
 };
 
 pub use close::close;
 pub use crowd::opposite;
-pub use facing::{Turned, turned};
-pub use faults::{Closing, InitialFault};
+use facing::askew;
+pub use facing::{Turned, back_to_back, turned};
+pub use faults::{Closing, InitialFault, Reversal};
 pub use offsets::{Offsets, meant_depth};
 pub use reach::may_meet;
 pub use surfaces::surfaces;
@@ -79,11 +80,14 @@ pub fn fault(model: &Model, pair: PairId, fit: &Fit) -> Option<InitialFault> {
     {
         return Some(fault);
     }
+    if let Some(turned) = back_to_back(model, pair, fit) {
+        return Some(away(model, pair, turned));
+    }
     let overlap = fit
         .overlap
         .filter(|overlap| overlap.share() > LARGEST_OVERLAP)?;
-    // Of surfaces that look away from each other, what is in front seems to be inside.
-    if let Some(turned) = turned(model, pair) {
+    // Of surfaces that do not face each other, what is in front seems to be inside.
+    if let Some(turned) = turned(model, pair).or_else(|| askew(model, pair)) {
         return Some(away(model, pair, turned));
     }
     if of_pair.initial == Initial::Resolve || of_pair.interference.is_some() {
@@ -138,10 +142,23 @@ fn too_deep(model: &Model, pair: PairId) -> Option<InitialFault> {
 }
 
 /// The fault that the sides of a pair look away from each other.
-pub fn away(model: &Model, pair: PairId, Turned { side, node, at }: Turned) -> InitialFault {
+pub fn away(model: &Model, pair: PairId, turned: Turned) -> InitialFault {
+    let Turned {
+        side,
+        node,
+        at,
+        cosine,
+    } = turned;
     let of_pair = &model.pairs[pair.0];
     let rigid = match &of_pair.b {
-        ContactSurface::Rigid(_) => Some(side_name(model, &of_pair.b).to_owned()),
+        ContactSurface::Rigid(rigid) => {
+            let of_rigid = &model.rigid_surfaces[rigid.0];
+            let reversal = match of_rigid.shape {
+                RigidShape::Plane { .. } => Reversal::Normal,
+                RigidShape::Facets { .. } | RigidShape::Bare => Reversal::Corners,
+            };
+            Some((of_rigid.name.clone(), reversal))
+        }
         ContactSurface::Deformable { .. } | ContactSurface::Itself => None,
     };
     InitialFault::Away {
@@ -150,6 +167,7 @@ pub fn away(model: &Model, pair: PairId, Turned { side, node, at }: Turned) -> I
         other: other_name(model, pair, side).to_owned(),
         node,
         at,
+        angle: cosine.clamp(-1.0, 1.0).acos().to_degrees(),
         rigid,
     }
 }

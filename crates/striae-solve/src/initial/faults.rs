@@ -73,9 +73,9 @@ pub enum InitialFault {
         /// The rigid surface.
         rigid: String,
     },
-    /// The sides look away from each other, as where facets are turned inside out.
+    /// The sides do not face each other, as where facets are turned inside out.
     #[error(
-        "pair `{pair}`: the surface of `{body}` faces away from that of `{other}`, so they cannot touch: at {node} of `{body}`, {}, both normals have the same direction. {}",
+        "pair `{pair}`: the surface of `{body}` faces away from that of `{other}`, so they cannot touch: at {node} of `{body}`, {}, their normals are {angle:.0} degrees apart, and 180 would be face to face. {}",
         place(at),
         turning(rigid)
     )]
@@ -90,8 +90,10 @@ pub enum InitialFault {
         node: NodeId,
         /// Position of the place.
         at: Vec3,
-        /// Rigid surface that is a side, if one is.
-        rigid: Option<String>,
+        /// Angle between the normals there, in degrees.
+        angle: f64,
+        /// Rigid surface that is a side, if one is, and the part of its statement to reverse.
+        rigid: Option<(String, Reversal)>,
     },
     /// Facets of one side are far smaller than those of the other.
     #[error(
@@ -162,12 +164,24 @@ impl InitialFault {
     }
 }
 
+/// Statement of a rigid surface that gives it its direction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reversal {
+    /// The normal of a plane.
+    Normal,
+    /// The order of the corners of facets.
+    Corners,
+}
+
 /// Advice for surfaces that look away from each other.
-fn turning(rigid: &Option<String>) -> String {
+fn turning(rigid: &Option<(String, Reversal)>) -> String {
     match rigid {
-        Some(rigid) => format!(
+        Some((rigid, Reversal::Corners)) => format!(
             "Reverse the facets of `{rigid}` (list their corners counter-clockwise as seen from the body), or name the facets of the body that face it"
         ),
+        Some((rigid, Reversal::Normal)) => {
+            format!("Reverse the normal of `{rigid}`, or name the facets of the body that face it")
+        }
         None => "Name the facets that face each other".to_owned(),
     }
 }
