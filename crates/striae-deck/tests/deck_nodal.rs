@@ -87,10 +87,10 @@ fn folder() -> tempfile::TempDir {
         "list.csv",
         "node,x,y,z\n3,4,0,0\n2,3,0,0\n1,2,0,0\n0,1,0,0\n",
     );
-    write(
-        "zero.csv",
-        "node,x,y,z\n10,1,0,0\n20,0,0,1\n30,1,0,0\n40,1,0,0\n",
-    );
+    for (name, direction) in [("normal.csv", "0,0,1"), ("zero.csv", "0,0,0")] {
+        let lines = format!("node,x,y,z\n10,1,0,0\n20,{direction}\n30,1,0,0\n40,1,0,0\n");
+        write(name, &lines);
+    }
     folder
 }
 
@@ -201,10 +201,26 @@ fn broken_nodal_textures_are_explained() {
 #[test]
 fn a_direction_along_the_normal_is_refused_with_its_node() {
     let folder = folder();
-    let deck = deck(r#"{ nodal = "zero.csv" }"#, BLOCK);
-    let error = parse(&deck, "deck.toml", folder.path())
-        .unwrap_err()
-        .to_string();
-    assert!(error.contains("body `cube`, node 1"), "{error}");
-    assert!(error.contains("no tangential part"), "{error}");
+    let told = |texture: &str| {
+        let deck = deck(texture, BLOCK);
+        let read = parse(&deck, "deck.toml", folder.path());
+        read.unwrap_err().to_string()
+    };
+    // Opposite directions at two corners of a face cancel at the others.
+    let opposite = "{ points = [{ at = [0, 0, 1], direction = [1, 0, 0] }, { at = [1, 1, 1], direction = [-1, 0, 0] }] }";
+    for (texture, words) in [
+        (
+            r#"{ nodal = "normal.csv" }"#,
+            "node 1, (1, 1, 1): it is normal",
+        ),
+        (
+            r#"{ nodal = "zero.csv" }"#,
+            "node 1, (1, 1, 1): the direction stated there is zero",
+        ),
+        (opposite, "cancel there"),
+    ] {
+        let error = told(texture);
+        let whole = "the texture of body `cube` has no direction at ";
+        assert!(error.contains(whole) && error.contains(words), "{error}");
+    }
 }

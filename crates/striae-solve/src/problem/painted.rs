@@ -19,6 +19,10 @@ pub enum Undirected {
     OnAxis,
     /// The direction is along the normal of the surface.
     AlongNormal,
+    /// The direction that is stated at the node is zero or not a number.
+    Zero,
+    /// Directions that are stated around the node cancel there.
+    Cancelled,
 }
 
 impl Undirected {
@@ -38,6 +42,37 @@ impl Undirected {
         }
     }
 
+    /// Reason why a paint has no direction at a node of a surface with nodes at `positions`.
+    fn of_paint(paint: &Paint, node: SurfaceNode, positions: &[Vec3]) -> Self {
+        let x = positions[node.index()];
+        let is_nearest = |place: &Vec3| {
+            let distance = (x - place).norm();
+            positions
+                .iter()
+                .all(|other| distance <= (other - place).norm())
+        };
+        let stated = match paint {
+            Paint::Field(field) => return Self::of(field, &x),
+            Paint::Nodal(directions) => directions.get(node.index()),
+            Paint::Nodes { directions, .. } => {
+                let mut stated = directions.iter();
+                stated
+                    .find(|(at, _)| *at == node)
+                    .map(|(_, direction)| direction)
+            }
+            Paint::Points { directions, .. } => {
+                let mut stated = directions.iter();
+                let stated = stated.find(|(place, _)| is_nearest(place));
+                stated.map(|(_, direction)| direction)
+            }
+        };
+        match stated {
+            Some(direction) if direction.norm() > 0.0 => Self::AlongNormal,
+            Some(_) => Self::Zero,
+            None => Self::Cancelled,
+        }
+    }
+
     /// Cause and remedy, as the end of a sentence.
     pub(crate) fn words(self) -> &'static str {
         match self {
@@ -46,6 +81,12 @@ impl Undirected {
             }
             Self::AlongNormal => {
                 "it is normal to the surface there; choose a direction with a tangential part"
+            }
+            Self::Zero => {
+                "the direction stated there is zero or not a number; state one with a length"
+            }
+            Self::Cancelled => {
+                "the directions stated around it cancel there; state one nearer to it, or reverse one of them"
             }
         }
     }
@@ -121,16 +162,15 @@ pub(super) fn painted(
             }
             ContactSurface::Itself => "side `a` itself".to_owned(),
         };
-        match (&error, paint, node, of_mesh) {
-            (TextureError::Vanishing { .. }, Paint::Field(field), Some(node), Some(of_mesh)) => {
-                let at = positions[node.index()];
+        match (&error, node, of_mesh) {
+            (TextureError::Vanishing { .. }, Some(node), Some(of_mesh)) => {
                 ProblemError::Undirected {
                     pair: pair_name,
                     side,
                     surface: owner,
                     node: of_mesh.to_string(),
-                    at: Box::new(at),
-                    cause: Undirected::of(field, &at),
+                    at: Box::new(positions[node.index()]),
+                    cause: Undirected::of_paint(paint, node, positions),
                 }
             }
             _ => ProblemError::Texture {
