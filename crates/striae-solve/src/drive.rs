@@ -22,7 +22,7 @@ use crate::{
     share::Share,
     stabilisation::first_increment,
     state::State,
-    support::tipping,
+    support::{Way, unsupported},
 };
 
 /// Told of everything that happens in a run.
@@ -392,7 +392,14 @@ fn stopped(
         | CutBack::Free { .. }
         | CutBack::Factor { .. } => None,
         CutBack::Released { .. } => limit(),
-        _ => tips(context, state, [reached, wanted], workspace).or_else(limit),
+        _ => {
+            let mut unheld =
+                |ways: &[(f64, Way)]| unheld(context, state, (reached, ways), workspace);
+            // Loads at the end of the step tell nothing of a body that slides before.
+            unheld(&[(wanted, Way::Tips), (1.0, Way::Tips)])
+                .or_else(limit)
+                .or_else(|| unheld(&[(wanted, Way::Slides)]))
+        }
     };
     Ending::Stopped {
         step: context.problem.model.steps[context.index].name.clone(),
@@ -401,21 +408,21 @@ fn stopped(
     }
 }
 
-/// The body that tips, if that is why there is no equilibrium beyond `state`: with the loads that
-/// were wanted or those at the end of the step. Collective.
-fn tips(
+/// The body that contact does not hold, if that is why there is no equilibrium beyond `state`, in
+/// one of some ways, each with the loads at a fraction of the step. Collective.
+fn unheld(
     context: &StepContext,
     state: &State,
-    [reached, wanted]: [f64; 2],
+    (reached, ways): (f64, &[(f64, Way)]),
     workspace: &mut Workspace,
 ) -> Option<CutBack> {
     let model = &context.problem.model;
     if model.steps[context.index].procedure != Procedure::QuasiStatic {
         return None;
     }
-    let found = [wanted, 1.0].into_iter().find_map(|s| {
+    let found = ways.iter().find_map(|&(s, way)| {
         let found = assembled_at(context, state, s, workspace).ok()?;
-        tipping(context, state, &found.forces.applied)
+        unsupported(context, state, &found.forces.applied, way)
     })?;
     let pair = &context.problem.pairs[found.pair];
     let own = if pair.bodies[0] == Some(found.body) {
@@ -423,11 +430,23 @@ fn tips(
     } else {
         Side::B
     };
-    Some(CutBack::Tips {
-        body: model.bodies[found.body].name.clone(),
-        other: other_name(model, PairId(found.pair), own).to_owned(),
-        pair: context.pairs[found.pair].name.clone(),
-        reached,
+    let body = model.bodies[found.body].name.clone();
+    let other = other_name(model, PairId(found.pair), own).to_owned();
+    let pair = context.pairs[found.pair].name.clone();
+    Some(match found.way {
+        Way::Tips => CutBack::Tips {
+            body,
+            other,
+            pair,
+            reached,
+        },
+        Way::Slides => CutBack::Slides {
+            body,
+            other,
+            pair,
+            largest: context.plan.frictions[found.pair].largest_coefficient(),
+            reached,
+        },
     })
 }
 

@@ -247,6 +247,22 @@ pub enum CutBack {
         /// Fraction of the step that was reached.
         reached: f64,
     },
+    /// Friction cannot hold a body against its loads, wherever it presses.
+    #[error(
+        "limit of friction reached: the loads on body `{body}` exceed the friction of pair `{pair}` that holds it on `{other}` (its largest coefficient is {largest:.4}), at the fraction {reached:.4} of the step; reduce the load along `{other}`, restrain the body, or give the step inertia with `dynamics = {{}}`"
+    )]
+    Slides {
+        /// Name of the body.
+        body: String,
+        /// Body or rigid surface that it slides on.
+        other: String,
+        /// Name of the pair.
+        pair: String,
+        /// Largest coefficient of friction of the pair.
+        largest: f64,
+        /// Fraction of the step that was reached.
+        reached: f64,
+    },
     /// A body has flown off.
     #[error(
         "body `{body}` flies off: {node} would move by {way:.1e}, {times:.0e} times the size of the model. Nothing restrains it, or loads far exceed its stiffness: restrain it by displacements or contact, give the step inertia with `dynamics = {{}}`, or compare loads per area with Young's modulus"
@@ -337,7 +353,7 @@ fn solving(place: &str, error: &SolveError) -> String {
             "; displacements, a tie or another pair prescribe how both surfaces move there: prescribe nodes away from the contact surface, or leave the facets around this node out of the pair".to_owned()
         }
         SolveError::Singular { .. } => {
-            "; prescribe displacements that restrain it, load it towards the bodies it touches, or set `stabilise = true` in its pair".to_owned()
+            "; prescribe displacements that restrain it, load it towards the bodies it touches and along them by no more than their friction, or set `stabilise = true` in its pair".to_owned()
         }
         SolveError::NotFinite { .. } => {
             " has a term that is infinite or not a number; check that moduli, sizes and loads are in one system of units, and that all facets there have an area".to_owned()

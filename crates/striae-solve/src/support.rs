@@ -7,11 +7,14 @@
 //! w + sum (f_k, x_k x f_k) = 0
 //! ```
 //!
-//! except for prescribed components. A cone of friction with a coefficient of [`ROUGH`] is
-//! approximated by four edges, so the task is to find weights `c >= 0` of the columns of a matrix
-//! by least squares (Lawson & Hanson, *Solving Least Squares Problems* (1974), chapter 23). The
-//! remainder of `w` is held by nothing: the body tips over an edge, or is lifted off. Points are
-//! those of a grid on its facets that face the other side and touch it.
+//! except for prescribed components. A cone of friction is approximated by its edges, so the task
+//! is to find weights `c >= 0` of the columns of a matrix by least squares (Lawson & Hanson,
+//! *Solving Least Squares Problems* (1974), chapter 23). The remainder of `w` is held by nothing:
+//! with a coefficient of [`ROUGH`] the body tips over an edge, or is lifted off; with that of its
+//! friction, in a pyramid around the cone, it slides. Points are those of a grid on its facets that
+//! face the other side and touch it.
+
+use std::f64::consts::PI;
 
 use nalgebra::{DMatrix, DVector, Matrix6, SymmetricEigen, Vector6};
 use striae_contact::{
@@ -29,8 +32,11 @@ use crate::{
     state::State,
 };
 
-/// Coefficient of friction that is as good as any.
+/// Coefficient of friction that is as good as any, and edges of its cone.
 const ROUGH: f64 = 100.0;
+const ROUGH_EDGES: usize = 4;
+/// Edges of the pyramid around a cone of friction.
+const EDGES: usize = 16;
 /// Most intervals of the grid along an edge of a facet, and about how many points there are.
 const INTERVALS: usize = 8;
 const POINTS: usize = 20_000;
@@ -46,13 +52,26 @@ pub(crate) struct Unsupported {
     pub body: usize,
     /// The pair that it stands on.
     pub pair: usize,
+    /// Its way to move.
+    pub way: Way,
 }
 
-/// A body that tips under the loads `applied` at the nodes in a converged state. Collective.
-pub(crate) fn tipping(
+/// Ways in which contact fails to hold a body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Way {
+    /// No friction would hold it.
+    Tips,
+    /// Its friction does not hold it.
+    Slides,
+}
+
+/// A body that contact does not hold against the loads `applied` at the nodes in a converged state,
+/// in the given way. Collective.
+pub(crate) fn unsupported(
     context: &StepContext,
     state: &State,
     applied: &[Vec3],
+    way: Way,
 ) -> Option<Unsupported> {
     let problem = context.problem;
     (0..problem.model.bodies.len()).find_map(|body| {
@@ -73,9 +92,18 @@ pub(crate) fn tipping(
         let frame = Frame::new(problem, body, state);
         let held = frame.held(context, body, state);
         let load = held * frame.load(problem, body, state, applied);
-        let columns = pairs
-            .iter()
-            .map(|&pair| frame.columns(problem, (pair, body), state));
+        let cones = pairs.iter().map(|&pair| match way {
+            Way::Tips => (pair, ROUGH, ROUGH_EDGES),
+            Way::Slides => {
+                let mu = context.plan.frictions[pair].largest_coefficient();
+                (pair, mu.min(ROUGH) / (PI / EDGES as f64).cos(), EDGES)
+            }
+        });
+        let columns = cones.map(|(pair, mu, edges)| {
+            let supports = frame.supports(problem, (pair, body), state);
+            let columns = supports.flat_map(|support| frame.cone(support, mu, edges));
+            columns.collect()
+        });
         let columns: Vec<Vec<Vector6<f64>>> = columns.collect();
         let most = (0..pairs.len()).max_by_key(|&at| columns[at].len())?;
         let columns: Vec<Vector6<f64>> = columns.concat().iter().map(|c| held * c).collect();
@@ -83,6 +111,7 @@ pub(crate) fn tipping(
         (!is_held && !columns.is_empty()).then_some(Unsupported {
             body,
             pair: pairs[most],
+            way,
         })
     })
 }
@@ -151,26 +180,36 @@ impl Frame {
         free.sum()
     }
 
-    /// Edges of the cones of friction at the points where a body is supported in a pair.
-    fn columns(
+    /// Points where a body is supported in a pair, and where they are pushed.
+    fn supports(
         &self,
         problem: &Problem,
         (pair, body): (usize, usize),
         state: &State,
-    ) -> Vec<Vector6<f64>> {
+    ) -> impl Iterator<Item = (Vec3, Vec3)> {
         let at = configuration(problem, pair, Positions::from(state));
         let sides = at.pair.deformable_sides().iter();
         let own = sides.filter(|side| {
             !at.pair.is_in_one_body() && problem.pairs[pair].bodies[**side] == Some(body)
         });
-        let points = own.flat_map(|&side| supports(&at, side));
-        let edges = points.flat_map(|(x, push)| {
-            let t = push.cross(&Vec3::ith(push.iamin(), 1.0)).normalize() * ROUGH;
-            let s = push.cross(&t);
-            [push + t, push - t, push + s, push - s]
-                .map(|force| self.wrench(&x, &force.normalize()))
-        });
-        edges.collect()
+        let points: Vec<_> = own.flat_map(|&side| supports(&at, side)).collect();
+        points.into_iter()
+    }
+
+    /// Edges of a cone of friction.
+    fn cone(
+        &self,
+        (x, push): (Vec3, Vec3),
+        mu: f64,
+        edges: usize,
+    ) -> impl Iterator<Item = Vector6<f64>> {
+        let t = push.cross(&Vec3::ith(push.iamin(), 1.0)).normalize();
+        let s = push.cross(&t);
+        (0..edges).map(move |edge| {
+            let (sine, cosine) = (2.0 * PI * edge as f64 / edges as f64).sin_cos();
+            let force = push + (t * cosine + s * sine) * mu;
+            self.wrench(&x, &force.normalize())
+        })
     }
 }
 

@@ -322,6 +322,36 @@ impl Friction {
         self.weakest_rate().is_some() || course.is_some_and(|course| course.falls)
     }
 
+    /// Smallest and largest coefficient at rest over all directions of slip and, with textures on
+    /// both surfaces, over all angles between them, at no pressure and without slip so far.
+    pub fn range(&self) -> [f64; 2] {
+        const DIRECTIONS: usize = 360;
+        const ANGLES: usize = 37;
+        let angles = match self.required_textures() {
+            RequiredTextures::Both => ANGLES,
+            RequiredTextures::Any | RequiredTextures::One => 1,
+        };
+        let at_rest = self.coefficient.at_slip_rate(0.0);
+        let surfaces = (0..angles).map(|at| std::f64::consts::PI * at as f64 / (ANGLES - 1) as f64);
+        let sizes = surfaces.flat_map(|theta| {
+            let samples = self.slip_surface(theta).sampled(DIRECTIONS);
+            samples.into_iter().map(|sample| sample.traction.norm())
+        });
+        let range = sizes.fold([f64::INFINITY, 0.0], |[low, high], size| {
+            [low.min(size), high.max(size)]
+        });
+        range.map(|size: f64| at_rest * size)
+    }
+
+    /// Coefficient that is not exceeded in any direction, at any pressure, slip and slip rate;
+    /// infinite where there is no such bound.
+    pub fn largest_coefficient(&self) -> f64 {
+        let [_, largest] = self.range();
+        let coefficient = &self.coefficient;
+        let by_pressure = coefficient.by_pressure().largest_factor();
+        largest * self.largest_over_rest() * by_pressure * coefficient.by_slip().largest_factor()
+    }
+
     /// Largest `varpi` over that at rest.
     pub fn largest_over_rest(&self) -> f64 {
         let course = self.coefficient.course();

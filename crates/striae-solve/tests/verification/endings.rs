@@ -326,6 +326,32 @@ fn pushed(along: f64) -> Model {
 }
 
 #[test]
+fn loads_beyond_friction_from_the_start_end_at_the_limit_of_friction() {
+    // Pressed and pushed at once, in a fixed ratio: held below it, and in no increment above it.
+    let proportional = |along: f64| {
+        let mut model = pushed(along);
+        let step = model.steps.remove(0);
+        model.steps[0].displacements = step.displacements;
+        model
+    };
+    assert_eq!(Run::of(proportional(0.2)).ending, Ending::Completed);
+    let run = Run::of(proportional(0.4));
+    let CutBack::Slides {
+        body,
+        other,
+        pair,
+        largest,
+        reached,
+    } = reason(&run)
+    else {
+        panic!("{}", run.ending);
+    };
+    let names = [body, other, pair].map(String::as_str);
+    assert_eq!(names, ["upper", "lower", "interface"]);
+    assert_eq!([*largest, *reached], [0.3, 0.0]);
+}
+
+#[test]
 fn a_traction_beyond_friction_ends_at_the_limit_of_friction() {
     let run = Run::of(pushed(0.4));
     let CutBack::FrictionLimit { pair, reached, .. } = reason(&run) else {

@@ -1,7 +1,5 @@
 //! Coefficients of friction over all directions, in the user's own constants.
 
-use std::f64::consts::PI;
-
 use striae_law::friction::{
     Coefficient, Friction, Healing, HealingCourse, Law, RateAndState, RequiredTextures,
 };
@@ -10,10 +8,6 @@ use striae_model::{Model, Pair};
 
 use super::{Advice, Topic};
 
-/// Number of directions of slip that are checked.
-const DIRECTIONS: usize = 360;
-/// Number of angles between two textures that are checked.
-const ANGLES: usize = 37;
 /// Coefficient above which there is a warning.
 const LARGEST: f64 = 2.0;
 /// Smallest over largest coefficient that is as good as none.
@@ -59,7 +53,7 @@ fn of_pair(name: &str, when: &str, friction: &Friction, advice: &mut Advice) {
     if matches!(friction.law(), Law::Frictionless | Law::Coulomb) {
         return;
     }
-    let [low, high] = range(friction);
+    let [low, high] = friction.range();
     let over = match friction.required_textures() {
         RequiredTextures::Both => "all directions of slip and angles between the textures",
         RequiredTextures::Any | RequiredTextures::One => "all directions of slip",
@@ -199,22 +193,4 @@ fn large(name: &str, when: &str, mu: f64, advice: &mut Advice) {
             "pair `{name}`: coefficients of friction{when} reach {mu:.4}; values above {LARGEST} are hardly intended. They are not percentages or angles"
         ),
     );
-}
-
-/// Smallest and largest friction over pressure.
-fn range(friction: &Friction) -> [f64; 2] {
-    let angles = match friction.required_textures() {
-        RequiredTextures::Both => ANGLES,
-        RequiredTextures::Any | RequiredTextures::One => 1,
-    };
-    let at_rest = friction.coefficient().at_slip_rate(0.0);
-    let surfaces = (0..angles).map(|at| PI * at as f64 / (ANGLES - 1) as f64);
-    let sizes = surfaces.flat_map(|theta| {
-        let samples = friction.slip_surface(theta).sampled(DIRECTIONS);
-        samples.into_iter().map(|sample| sample.traction.norm())
-    });
-    let range = sizes.fold([f64::INFINITY, 0.0], |[low, high], size| {
-        [low.min(size), high.max(size)]
-    });
-    range.map(|size: f64| at_rest * size)
 }
