@@ -136,10 +136,68 @@ fn rigid_surfaces_are_shown() {
             "3 nodes",
             "facets of a rigid surface: 1",
             "area 1",
+            "open, with 3 boundary edges",
+            "mean normal (0, 0, 1): bodies touch it from there",
             "wrote road.png",
             "wrote road.vtu",
         ]
     );
+}
+
+/// Files of Gmsh and Abaqus that have shells alone.
+#[test]
+fn files_of_facets_alone_are_rigid_surfaces() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let nodes = "1 0 0 0\n2 2 0 0\n3 2 2 0\n4 0 2 0\n";
+    let gmsh = format!(
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n{nodes}$EndNodes\n\
+         $Elements\n2\n1 2 2 1 1 1 2 3\n2 2 2 1 1 1 3 4\n$EndElements\n"
+    );
+    let abaqus = format!(
+        "*NODE\n{}*ELEMENT, TYPE=R3D4\n1, 1, 2, 3, 4\n",
+        nodes.replace(' ', ", ")
+    );
+    let turned = gmsh.replace("1 3 4", "1 4 3");
+    for (name, text) in [("a.msh", &gmsh), ("b.inp", &abaqus), ("c.msh", &turned)] {
+        fs::write(folder.path().join(name), text).expect("a file");
+        let (code, out, errors) = said(folder.path(), &[name]);
+        assert_eq!((code, errors.as_str()), (Some(0), ""), "{out}");
+        let is_turned = name == "c.msh";
+        let normal = "mean normal (0, 0, 1): bodies touch it from there";
+        assert!(
+            out.contains("area 4\n  open, with 4 boundary edges\n"),
+            "{out}"
+        );
+        assert_eq!(out.contains(normal), !is_turned, "{out}");
+        let words =
+            "opposite orientations: 1, the first of facets 0, 1 from (0, 0, 0) to (2, 2, 0)";
+        assert_eq!(out.contains(words), is_turned, "{out}");
+    }
+    fs::write(folder.path().join("none.inp"), "*NODE\n1, 0, 0, 0\n").expect("a file");
+    let (code, _, errors) = said(folder.path(), &["none.inp"]);
+    let words = "expected tetrahedra, pyramids, wedges or hexahedra, found none";
+    assert!(code == Some(2) && errors.contains(words), "{errors}");
+}
+
+/// Cubes that share no nodes, and those that touch without being joined.
+#[test]
+fn joints_that_are_none_are_told() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let apart = FILE.replace(
+        "8, 2, 3, 6, 5, 12, 13, 16, 15",
+        "8, 22, 3, 6, 25, 32, 13, 16, 35",
+    );
+    let more = "22, 1., 0., 0.\n25, 1., 1., 0.\n32, 1., 0., 1.\n35, 1., 1., 1.\n";
+    let apart = apart.replace("*NODE\n", &format!("*NODE\n{more}"));
+    fs::write(folder.path().join("bar.inp"), apart).expect("a file");
+    let (code, out, _) = said(folder.path(), &["bar.inp"]);
+    assert_eq!(code, Some(0), "{out}");
+    for words in [
+        "note: pieces that share no nodes: 2: 8 nodes with node 1 at (0, 0, 0); 8 nodes with node 3 at (2, 0, 0)\n",
+        "warning: pairs of coincident nodes that are not joined: 4, the first 2 and 22 at (1, 0, 0);",
+    ] {
+        assert!(out.contains(words), "{out}");
+    }
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! `striae mesh FILE`: what a mesh file holds, before a deck is written for it.
 
 mod grid;
+mod rigid;
 mod surface;
 mod words;
 
@@ -9,7 +10,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use striae::mesh_file::{self, Reading};
+use striae::mesh_file::{self, MeshFileError, MeshFileFault, Reading, RigidSurfaceMesh};
 use striae_report::picture::WIDTH;
 
 use super::picture::{direction, width};
@@ -36,14 +37,41 @@ pub struct Arguments {
 
 /// Reads the file, prints its content, and writes the requested files.
 pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
-    match has_ending(&arguments.file, "stl") {
-        true => surface(arguments, out),
-        false => body(arguments, out),
+    match read(&arguments.file)? {
+        Content::Body(reading) => body(*reading, arguments, out),
+        Content::Rigid(surface) => rigid(&surface, arguments, out),
     }
 }
 
-fn body(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
-    let mut reading = mesh_file::read_with_notes(&arguments.file)?;
+/// Content of a mesh file.
+enum Content {
+    Body(Box<Reading>),
+    Rigid(RigidSurfaceMesh),
+}
+
+/// The body of a file, or the rigid surface of one that has no elements of a body.
+fn read(file: &Path) -> Result<Content, MeshFileError> {
+    if has_ending(file, "stl") {
+        return mesh_file::read_rigid_surface(file).map(Content::Rigid);
+    }
+    let error = match mesh_file::read_with_notes(file) {
+        Ok(reading) => return Ok(Content::Body(Box::new(reading))),
+        Err(error) => error,
+    };
+    if !matches!(error.fault, MeshFileFault::Empty { .. }) {
+        return Err(error);
+    }
+    match mesh_file::read_rigid_surface(file) {
+        Ok(surface) => Ok(Content::Rigid(surface)),
+        Err(other) => match other.fault {
+            // It has no surface either, or its format knows none.
+            MeshFileFault::Empty { .. } | MeshFileFault::UnknownEnding { .. } => Err(error),
+            _ => Err(other),
+        },
+    }
+}
+
+fn body(mut reading: Reading, arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     reading.mesh.name_all_facets();
     write!(out, "{}", words::of_body(&arguments.file, &reading))?;
     let Reading { mesh, numbers, .. } = &reading;
@@ -57,14 +85,17 @@ fn body(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     Ok(())
 }
 
-fn surface(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
-    let read = mesh_file::read_rigid_surface(&arguments.file)?;
-    write!(out, "{}", words::of_surface(&arguments.file, &read))?;
+fn rigid(
+    read: &RigidSurfaceMesh,
+    arguments: &Arguments,
+    out: &mut dyn Write,
+) -> Result<(), Failure> {
+    write!(out, "{}", rigid::words(&arguments.file, read))?;
     if let Some(file) = &arguments.picture {
-        draw(surface::of_rigid(&read), arguments, file, out)?;
+        draw(surface::of_rigid(read), arguments, file, out)?;
     }
     if let Some(file) = &arguments.out {
-        grid::write_surface(&read, file)?;
+        grid::write_surface(read, file)?;
         writeln!(out, "wrote {}", file.display())?;
     }
     Ok(())

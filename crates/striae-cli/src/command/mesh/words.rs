@@ -2,9 +2,9 @@
 
 use std::{collections::BTreeMap, fmt::Write, path::Path};
 
-use striae::mesh_file::{MaterialCard, Reading, RigidSurfaceMesh, unused_note};
+use striae::mesh_file::{MaterialCard, Reading, unused_note};
 use striae_mesh::{
-    CellKind, Mesh, Quality, Vec3, place, quality::SMALL_SCALED_JACOBIAN, significant,
+    CellKind, Mesh, NodeId, Quality, Vec3, place, quality::SMALL_SCALED_JACOBIAN, significant,
 };
 
 /// Lines about the mesh of a body.
@@ -30,34 +30,13 @@ pub fn of_body(file: &Path, reading: &Reading) -> String {
     lines.extend(node_sets(mesh));
     lines.extend(reading.materials.iter().map(|card| material(card, reading)));
     lines.extend(reading.notes.iter().map(|note| format!("note: {note}")));
+    lines.extend(joints(reading));
     let unused = unused_note(&reading.unused, true);
     lines.extend(unused.map(|note| format!("note: {note}")));
     lines.join("\n") + "\n"
 }
 
-/// Lines about a rigid surface.
-pub fn of_surface(file: &Path, surface: &RigidSurfaceMesh) -> String {
-    let positions = &surface.positions;
-    let start = positions.first().copied().unwrap_or_default();
-    let corners = positions.iter();
-    let (low, high) = corners.fold((start, start), |(low, high), x| (low.inf(x), high.sup(x)));
-    let area = |facet: &[striae_mesh::NodeId; 4]| {
-        let [a, b, c, d] = facet.map(|node| positions[node.index()]);
-        0.5 * (c - a).cross(&(d - b)).norm()
-    };
-    let area: f64 = surface.facets.iter().map(area).sum();
-    [
-        file.display().to_string(),
-        extent(&low, &high),
-        format!("  {} nodes", positions.len()),
-        format!("  facets of a rigid surface: {}", surface.facets.len()),
-        format!("  area {area}", area = significant(area, 7)),
-    ]
-    .join("\n")
-        + "\n"
-}
-
-fn extent(low: &Vec3, high: &Vec3) -> String {
+pub(super) fn extent(low: &Vec3, high: &Vec3) -> String {
     format!("  from {} to {}", place(low), place(high))
 }
 
@@ -128,6 +107,44 @@ fn material(material: &MaterialCard, reading: &Reading) -> String {
             material.name
         ),
     }
+}
+
+/// Most pieces of a body that a note describes.
+const MOST_PIECES: usize = 4;
+
+/// Pieces that share no nodes, and nodes at one place that are not joined.
+fn joints(reading: &Reading) -> Vec<String> {
+    let Reading { mesh, numbers, .. } = reading;
+    let at = |node: NodeId| place(&mesh.positions[node.index()]);
+    let mut lines = Vec::new();
+    let pieces = mesh.pieces();
+    if pieces.len() > 1 {
+        let shown = pieces.iter().take(MOST_PIECES).map(|piece| {
+            let (count, node) = (piece.len(), numbers.node(piece[0]));
+            format!("{count} nodes with node {node} at {}", at(piece[0]))
+        });
+        let mut shown: Vec<String> = shown.collect();
+        match pieces.len().saturating_sub(MOST_PIECES) {
+            0 => {}
+            more => shown.push(format!("and {more} more")),
+        }
+        lines.push(format!(
+            "note: pieces that share no nodes: {}: {}",
+            pieces.len(),
+            shown.join("; ")
+        ));
+    }
+    let coincident = mesh.coincident_nodes();
+    if let Some([first, second]) = coincident.first() {
+        lines.push(format!(
+            "warning: pairs of coincident nodes that are not joined: {}, the first {} and {} at {}; elements separate there without resistance. Merge coincident nodes in the mesh generator, unless a slit is intended",
+            coincident.len(),
+            numbers.node(*first),
+            numbers.node(*second),
+            at(*first)
+        ));
+    }
+    lines
 }
 
 /// A table of sets by name, count and size; nothing where there are none.
