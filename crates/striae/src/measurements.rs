@@ -2,13 +2,14 @@
 //!
 //! One reading a line under a line with the names of the columns; empty lines and what follows
 //! a `#` are passed over. Fields are separated by semicolons or tabs, if the first line has
-//! one, otherwise by commas; beside semicolons and tabs a comma may be the decimal sign.
-//! Columns of other names are not used, and a note says so.
+//! one, otherwise by commas, or by blanks if it has none and the second line as many words;
+//! beside these a comma may be the decimal sign. Names may have capitals, and a unit in brackets
+//! behind: `Angle [deg]`. Columns of other names are not used, and a note says so.
 //!
 //! | column | meaning |
 //! | --- | --- |
 //! | `angle` | direction in which the textured surface slips, from its texture `a` (across the grooves, against a nap), counter-clockwise as seen from outside it; of two textured surfaces from the bisector of `a_a` and `a_b'` (degrees) |
-//! | `friction` | tangential over normal force: the part against slip, or its whole size where there is a `direction` (no unit) |
+//! | `friction` | tangential over normal force: the part against slip, or its whole size where there is a `direction` (no unit); also `mu` |
 //! | `tangential`, `normal` | the two forces, in place of `friction` (force) |
 //! | `direction` | direction of `-tau`, the force that drags the textured surface, counted as `angle` (degrees); optional |
 //! | `theta` | angle between the textures of two surfaces (degrees); optional, 0 |
@@ -17,14 +18,17 @@
 //!
 //! Angles may also count from along the texture, see [`AngleFrom`].
 
+mod doubts;
 mod header;
+mod name;
 
 use std::{fmt, str::FromStr};
 
 use striae_files::Separator;
 use striae_law::fit::Reading;
 
-use header::Header;
+use doubts::doubts;
+use header::{Header, Row};
 
 /// Names of columns.
 const COLUMNS: [&str; 8] = [
@@ -107,7 +111,7 @@ pub struct Measured {
     pub readings: Vec<Reading>,
     /// Names of the specimens by number, in the order of their first readings.
     pub specimens: Vec<String>,
-    /// Notes on columns that were passed over.
+    /// Notes on columns that were passed over, and on numbers that are hardly meant.
     pub notes: Vec<String>,
 }
 
@@ -190,22 +194,22 @@ fn measured(text: &str, form: &Form, faults: &mut Vec<MeasurementFault>) -> Opti
     let mut lines = lines
         .map(|(at, line)| (at + 1, line.split('#').next().unwrap_or("")))
         .skip(form.skipped)
-        .filter(|(_, line)| !line.trim().is_empty())
-        .peekable();
-    let Some(&(number, first)) = lines.peek() else {
+        .filter(|(_, line)| !line.trim().is_empty());
+    let Some((number, first)) = lines.clone().next() else {
         let message = "it is empty: it must have a line with names of columns, such as `angle, friction`, and a line for each reading";
         faults.push(fault(None, message));
         return None;
     };
-    let separator = Separator::of(first);
+    let second = lines.clone().nth(1).map_or("", |(_, line)| line);
+    let separator = Separator::of_two(first, second);
     let header = Header::read(separator, (number, first), form, faults)?;
     if header.is_named() {
         lines.next();
     }
     let mut specimens = Vec::new();
-    let rows =
-        lines.filter_map(|(number, line)| header.reading(number, line, &mut specimens, faults));
-    let mut readings: Vec<Reading> = rows.collect();
+    let rows = lines.filter_map(|(number, line)| header.row(number, line, &mut specimens, faults));
+    let rows: Vec<Row> = rows.collect();
+    let mut readings: Vec<Reading> = rows.iter().map(|row| row.reading).collect();
     if readings.is_empty() && faults.is_empty() {
         faults.push(fault(None, "it has no readings below the names of columns"));
     }
@@ -214,7 +218,7 @@ fn measured(text: &str, form: &Form, faults: &mut Vec<MeasurementFault>) -> Opti
             reading.slip -= 90f64.to_radians();
         }
     }
-    let notes = header.note().into_iter().collect();
+    let notes = header.note().into_iter().chain(doubts(&rows)).collect();
     Some(Measured {
         readings,
         specimens,
@@ -258,8 +262,20 @@ mod tests {
             ("angle,friction\n", "no readings"),
             ("0,0.3\n", "m.csv:1:1: numbers, but no names of columns"),
             (
-                "angle,mu\n0,1\n",
-                "m.csv:1:1: a column `friction` is needed, or `tangential` and `normal`; there are `angle`, `mu`",
+                "angle,COF\n0,1\n",
+                "m.csv:1:1: a column `friction` is needed, or `tangential` and `normal`; there are `angle`, `COF`; name yours by `--columns`, such as `--columns friction=COLUMN`",
+            ),
+            (
+                "panel,x,y\n1,0,1\n",
+                "there are `panel`, `x`, `y`; name yours by `--columns`, such as `--columns angle=COLUMN`",
+            ),
+            (
+                "Angle,angle (deg),friction\n0,0,1\n",
+                "m.csv:1:7: columns `Angle` and `angle (deg)` can both be `angle`; name one of them: `--columns angle=1`",
+            ),
+            (
+                "angle [rad],friction\n0,1\n",
+                "m.csv:1:1: column `angle [rad]`: `angle` is needed in degrees; convert it",
             ),
             (
                 "angle,tangental,normal\n0,1,1\n",
@@ -314,6 +330,42 @@ mod tests {
             told.contains("m.csv:2:1: unknown column `Fy`; there are `Test`"),
             "{told}"
         );
+    }
+
+    #[test]
+    fn names_have_capitals_and_units_and_blanks_separate() {
+        let expected = parse("angle,friction\n0,.3\n90,.2\n", "m.csv").unwrap();
+        for text in [
+            "Angle (deg),Mu\n0,.3\n90,.2\n",
+            "Friction;angle [°];Normal (N)\n0,3;0;7\n0,2;90;8\n",
+            "angle  friction\n 0  .3\n90  .2\n",
+        ] {
+            let measured = read(text, "m.csv", &Form::default()).unwrap();
+            assert_eq!(measured.readings, expected, "{text}");
+            assert_eq!(measured.notes.is_empty(), !text.contains("Normal"));
+        }
+    }
+
+    #[test]
+    fn numbers_that_are_hardly_meant_are_noted() {
+        let notes = |text: &str| read(text, "m.csv", &Form::default()).unwrap().notes;
+        let usual = "angle,friction\n0,.3\n90,.2\n180,.25\n";
+        assert!(notes(usual).is_empty());
+        for (line, words) in [
+            (
+                "45,-.2\n",
+                "negative friction, which would drive the slip: -0.2 in line 5; ",
+            ),
+            (
+                "45,35\n",
+                "more than 10 times the median 0.3000: 35 in line 5; is it in percent",
+            ),
+        ] {
+            let told = notes(&format!("{usual}{line}"));
+            assert!(told.len() == 1 && told[0].contains(words), "{told:?}");
+        }
+        let told = notes("angle,friction\n0,.3\n1.5708,.2\n3.1416,.25\n");
+        assert!(told[0].contains("are they in radians?"), "{told:?}");
     }
 
     #[test]

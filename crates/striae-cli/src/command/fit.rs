@@ -27,8 +27,9 @@ use sought::Law;
 
 /// Find the constants of a friction law from measurements.
 ///
-/// MEASUREMENTS is a text file with commas, semicolons or tabs between numbers, one reading a
-/// line, under a line with the names of columns: `angle`, the direction in which the textured
+/// MEASUREMENTS is a text file with commas, semicolons, tabs or blanks between numbers, one reading
+/// a line, under a line with the names of columns, in any letters and with units in brackets behind
+/// where you like: `angle`, the direction in which the textured
 /// surface slips, in degrees from its texture `a` (across the grooves, against a nap; of two
 /// textures from the bisector of both; `--angle-from along` counts from the grooves);
 /// `friction`, tangential over normal force, or the forces `tangential` and `normal`; and where

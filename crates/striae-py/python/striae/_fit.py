@@ -45,8 +45,9 @@ def read_measurements(
 ) -> Measurements:
     """Reads a file of measurements, as ``striae fit`` takes it.
 
-    One reading a line, fields separated by commas, semicolons or tabs (beside the latter two a
-    comma may be the decimal sign), under a line with the names of columns:
+    One reading a line, fields separated by commas, semicolons, tabs or blanks (beside all but
+    commas a comma may be the decimal sign), under a line with the names of columns, which may have
+    capitals, and units in brackets behind:
     ``angle`` (degrees), ``friction`` (no unit) or ``tangential`` and ``normal`` (force), and where
     they are known ``direction`` and ``theta`` (degrees), ``spread`` (no unit) and the name of the
     ``specimen``. What follows a

@@ -2,9 +2,11 @@
 
 use striae_files::Separator;
 use striae_law::fit::Reading;
-use striae_model::nearest;
 
-use super::{COLUMNS, Form, MeasurementFault, NamedColumn, fault};
+use super::{
+    COLUMNS, Form, MeasurementFault, NamedColumn, fault,
+    name::{Name, is_misspelt},
+};
 
 /// Assignment of the fields of a line to quantities.
 pub(super) struct Header {
@@ -15,6 +17,18 @@ pub(super) struct Header {
     fields: Vec<(&'static str, usize)>,
     /// Naming of the fields.
     naming: Naming,
+}
+
+/// A line of a file.
+pub(super) struct Row {
+    /// Its number.
+    pub(super) line: usize,
+    /// Angle as written, in degrees.
+    pub(super) angle: f64,
+    /// Friction as written, or the quotient of the forces.
+    pub(super) friction: f64,
+    /// The reading.
+    pub(super) reading: Reading,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -68,12 +82,54 @@ impl Header {
                 None => header.fields.push((known, at)),
             }
         }
+        header.take_similar((number, &written), faults);
         if faults.len() == before
             && let Some(message) = header.missing()
         {
             faults.push(fault(Some((number, 1)), message));
         }
         (faults.len() == before).then_some(header)
+    }
+
+    /// Takes columns for quantities that no other column is for, by names in other letters and
+    /// with units, such as `Angle [deg]`.
+    fn take_similar(
+        &mut self,
+        (number, written): (usize, &[(usize, &str)]),
+        faults: &mut Vec<MeasurementFault>,
+    ) {
+        for known in COLUMNS {
+            let ruled_out = match known {
+                "friction" => self.has("tangential") || self.has("normal"),
+                "tangential" | "normal" => self.has("friction"),
+                _ => false,
+            };
+            if self.has(known) || ruled_out {
+                continue;
+            }
+            let columns = written.iter().enumerate();
+            let same = columns.filter(|(_, (_, name))| Name::of(name).is(known));
+            let is_free = |at: usize| !self.fields.iter().any(|(_, field)| *field == at);
+            let same: Vec<_> = same.filter(|(at, _)| is_free(*at)).collect();
+            let Some(&(at, (column, name))) = same.first() else {
+                continue;
+            };
+            if let Some((_, (column, other))) = same.get(1) {
+                let message = format!(
+                    "columns `{name}` and `{other}` can both be `{known}`; name one of them: `--columns {known}={}`",
+                    at + 1
+                );
+                faults.push(fault(Some((number, *column)), message));
+            } else if let Some(needed) = Name::of(name).foreign_unit(known) {
+                let message = format!(
+                    "column `{name}`: `{known}` is needed {needed}; convert it, or if it is, name the column: `--columns {known}={}`",
+                    at + 1
+                );
+                faults.push(fault(Some((number, *column)), message));
+            } else {
+                self.fields.push((known, at));
+            }
+        }
     }
 
     /// True where the first line has names.
@@ -133,12 +189,19 @@ impl Header {
             (false, _) => "a column `friction` is needed, or `tangential` and `normal`",
         };
         let similar = self.foreign().find_map(|name| {
-            let known = COLUMNS.into_iter().filter(|known| !self.has(known));
-            Some((name, nearest(name, known)?))
+            let mut known = COLUMNS.into_iter().filter(|known| !self.has(known));
+            Some((name, known.find(|known| is_misspelt(name, known))?))
         });
         let hint = match similar {
             Some((name, known)) => format!("unknown column `{name}`; did you mean `{known}`?"),
-            None => "name yours by `--columns`, such as `--columns friction=COF`".to_owned(),
+            None => {
+                let quantity = if self.has("angle") {
+                    "friction"
+                } else {
+                    "angle"
+                };
+                format!("name yours by `--columns`, such as `--columns {quantity}=COLUMN`")
+            }
         };
         Some(format!("{needed}; {}; {hint}", self.there()))
     }
@@ -152,15 +215,15 @@ impl Header {
         fields.find(|(known, _)| *known == name).map(|(_, at)| *at)
     }
 
-    /// The reading of a line, or `None` after its faults have been noted; `specimens` are the
+    /// The row of a line, or `None` after its faults have been noted; `specimens` are the
     /// names so far.
-    pub(super) fn reading(
+    pub(super) fn row(
         &self,
         number: usize,
         line: &str,
         specimens: &mut Vec<String>,
         faults: &mut Vec<MeasurementFault>,
-    ) -> Option<Reading> {
+    ) -> Option<Row> {
         let before = faults.len();
         let fields: Vec<(usize, &str)> = self.separator.fields(line).collect();
         if fields.len() != self.names.len() {
@@ -202,16 +265,22 @@ impl Header {
             return None;
         }
         let specimen = specimen.map_or(0, |(_, name)| numbered(name, specimens));
-        let (slip, friction) = (angle?.to_radians(), friction?);
+        let (angle, friction) = (angle?, friction?);
+        let slip = angle.to_radians();
         let reading = match direction {
             Some(direction) => Reading::directed(slip, friction, direction.to_radians()),
             None => Reading::against(slip, friction),
         };
-        Some(Reading {
-            theta: theta.unwrap_or(0.0).to_radians(),
-            spread: spread.unwrap_or(1.0),
-            specimen,
-            ..reading
+        Some(Row {
+            line: number,
+            angle,
+            friction,
+            reading: Reading {
+                theta: theta.unwrap_or(0.0).to_radians(),
+                spread: spread.unwrap_or(1.0),
+                specimen,
+                ..reading
+            },
         })
     }
 }
