@@ -109,6 +109,7 @@ fn a_sweep_makes_a_table() {
         (&["compare", "s/mu=0.1", "s/mu=0.2"], 1),
         (&["compare", "s/mu=0.1", "s/mu=0.2", "--tolerance", "2"], 0),
         (&["compare", "s/mu=0.1", "s/mu=0.2", "--tolerance", "-1"], 2),
+        (&["compare", "s/mu=0.1", "none"], 2),
     ] {
         let compared = striae(place.path(), words);
         assert_eq!(compared.status.code(), Some(code), "{compared:?}");
@@ -154,14 +155,20 @@ fn a_run_that_fails_is_a_row_with_its_reason() {
     assert_eq!(rows[0]["increments"], "3");
     assert_eq!(rows[0]["reason"], "");
     assert!(rows[1]["reason"].len() > 10, "{rows:?}");
-    // The results that are there are not those of this sweep.
+    // Nothing is written over results that are there.
     let again = striae(place.path(), &words);
-    assert_eq!(again.status.code(), Some(1), "{again:?}");
-    let rows = self::rows(&place.path().join("s/sweep.csv"));
+    assert_eq!(again.status.code(), Some(2), "{again:?}");
+    let said = stderr(&again);
     assert!(
-        rows.iter().all(|row| row["status"] == "refused"),
-        "{rows:?}"
+        said.contains("holds the results of an earlier run"),
+        "{said}"
     );
+    let other = words.map(|word| word.replace("-1.5", "-0.02"));
+    let other: Vec<&str> = other.iter().map(String::as_str).collect();
+    assert_eq!(striae(place.path(), &other).status.code(), Some(2));
+    assert_eq!(self::rows(&place.path().join("s/sweep.csv")), rows);
+    // The table and the two runs.
+    assert_eq!(place.path().join("s").read_dir().unwrap().count(), 3);
     let twice = [&words[..], &["--vary", "mu=1,2"]].concat();
     let twice = striae(place.path(), &twice);
     assert_eq!(twice.status.code(), Some(2));

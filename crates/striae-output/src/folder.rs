@@ -89,7 +89,7 @@ impl Claim {
             cause,
         })?;
         let claim = Self::of(folder)?;
-        if !RESULTS.iter().any(|name| folder.join(name).exists()) {
+        if !is_occupied(folder) {
             return Ok(claim);
         }
         match existing {
@@ -100,6 +100,11 @@ impl Claim {
             }
         }
     }
+}
+
+/// Returns whether a folder holds results of a run.
+pub fn is_occupied(folder: &Path) -> bool {
+    RESULTS.iter().any(|name| folder.join(name).exists())
 }
 
 /// Removes what runs write; anything else in the folder stays, and so does the deck.
@@ -148,11 +153,13 @@ mod tests {
             "report.html",
         ];
         let others = ["deck.toml", "notes.txt", "fields/notes.txt"];
+        assert!(!is_occupied(folder));
         for name in written.iter().chain(&others) {
             fs::write(folder.join(name), "1").unwrap();
         }
         let refused = Claim::new(folder, Existing::Keep);
         assert!(matches!(refused, Err(OutputError::Occupied(_))));
+        assert!(is_occupied(folder));
         assert_eq!(names(folder).len(), 7);
         Claim::new(folder, Existing::Replace).unwrap();
         assert_eq!(names(folder), ["deck.toml", "fields", "notes.txt"]);

@@ -34,7 +34,7 @@ pub mod worn;
 
 pub use checksums::Checksums;
 pub use error::OutputError;
-pub use folder::Existing;
+pub use folder::{Existing, is_occupied};
 pub use memory::available_bytes;
 pub use probes::weights as probe_weights;
 pub use ranks::{agreed, from_first};

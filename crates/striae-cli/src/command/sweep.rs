@@ -18,6 +18,7 @@ use std::{
 use striae::case_name;
 use striae_deck::read_with;
 use striae_files::write_atomically;
+use striae_output::{OutputError, is_occupied};
 
 use self::{
     members::{Member, Variation, members},
@@ -26,6 +27,9 @@ use self::{
 };
 use super::law::make_folder;
 use crate::{failure::Failure, interrupt::listen, source::Source};
+
+/// The table, in the folder of a sweep.
+const TABLE: &str = "sweep.csv";
 
 /// Run a deck with several values of its numbers, and tabulate the results.
 #[derive(clap::Args)]
@@ -54,12 +58,16 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     let folder = arguments.out.clone().unwrap_or_else(own);
     let fixed = &arguments.source.settings.set;
     let members = members(&arguments.vary, fixed, &folder).map_err(Failure::Variation)?;
+    if !arguments.overwrite {
+        refuse_results(&folder, &members)?;
+    }
+    writeln!(std::io::stderr(), "runs: {}", members.len())?;
     // A faulty deck is told once, before anything is run.
     for member in &members {
         read_with(deck, &member.settings())?;
     }
     make_folder(&folder)?;
-    let file = folder.join("sweep.csv");
+    let file = folder.join(TABLE);
     let written = |outcomes: &[Outcome]| {
         let table = Table::of(&members, outcomes);
         let text = table.csv();
@@ -81,6 +89,16 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     write!(out, "{}", table.text())?;
     writeln!(out, "wrote {}", file.display())?;
     concluded(&members, &outcomes)
+}
+
+/// Refuses a folder with the table or with runs of an earlier sweep.
+fn refuse_results(folder: &Path, members: &[Member]) -> Result<(), OutputError> {
+    let mut runs = members.iter().map(|member| &member.folder);
+    match runs.find(|run| is_occupied(run)) {
+        Some(run) => Err(OutputError::Occupied(run.clone())),
+        None if folder.join(TABLE).exists() => Err(OutputError::Occupied(folder.to_owned())),
+        None => Ok(()),
+    }
 }
 
 /// The run of a member, by this program.

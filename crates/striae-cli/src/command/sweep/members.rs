@@ -13,6 +13,9 @@ const UNFIT: &str = "/\\:*?\"<>|";
 /// Bytes up to which a folder is named by all values; file systems have 255.
 const LONGEST: usize = 200;
 
+/// Most runs of a sweep; each has a process and a folder.
+const MOST: usize = 10_000;
+
 /// A number and its values.
 #[derive(Clone, Debug)]
 pub(super) struct Variation {
@@ -74,12 +77,19 @@ impl Member {
 /// All combinations, the last number changing fastest.
 ///
 /// # Errors
-/// A name that is stated twice.
+/// A name that is stated twice, or too many combinations.
 pub(super) fn members(
     variations: &[Variation],
     fixed: &[Setting],
     folder: &Path,
 ) -> Result<Vec<Member>, String> {
+    let counts = variations.iter().map(|variation| variation.settings.len());
+    let count = counts.fold(1, usize::saturating_mul);
+    if count > MOST {
+        return Err(format!(
+            "the values have {count} combinations, each of which is a run; a sweep has at most {MOST}, so give fewer values, or vary one number at a time"
+        ));
+    }
     let mut known: BTreeSet<&str> = fixed.iter().map(Setting::name).collect();
     let mut all: Vec<Vec<Setting>> = vec![Vec::new()];
     for Variation { settings } in variations {
@@ -162,6 +172,13 @@ mod tests {
             let found = varied(texts, fixed).unwrap_err();
             assert!(found.contains(words), "{found}");
         }
+        let many: Vec<String> = (0..101).map(|value| value.to_string()).collect();
+        let [first, second] = ["mu", "E"].map(|name| format!("{name}={}", many.join(",")));
+        let found = varied(&[&first, &second], &[]).unwrap_err();
+        assert!(
+            found.contains("the values have 10201 combinations"),
+            "{found}"
+        );
         assert!("mu".parse::<Variation>().is_err());
         assert!("mu=1,,2".parse::<Variation>().is_err());
     }
