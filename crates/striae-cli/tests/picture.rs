@@ -110,11 +110,32 @@ fn what_is_not_possible_is_refused_and_nothing_is_written() {
         (&["--range", "2,1"], "two ascending numbers are needed"),
         (&["--animate", "--frame-time", "0"], "from 0.01 to 60"),
         (&["--frame-time", "1"], "--animate"),
+        (
+            &["--out", "film.jpg"],
+            "film.jpg: a picture ends in .png, with `--animate` in .gif or .png; choose one of these",
+        ),
+        (
+            &["--hide", "nix"],
+            "unknown name `nix` of a body or surface; known names are block",
+        ),
+        (&["--animate", "--hide", "nix"], "unknown name `nix`"),
+        (&["--time", "nan"], "the fields are from time 0 to "),
+        (
+            &["--magnify", "nan"],
+            "a number from -1e12 to 1e12 is needed",
+        ),
+        (&["--magnify", "1e300"], "cannot be magnified by 1e300"),
     ] {
         let said = refused(arguments);
         assert!(said.contains(words), "{said}");
     }
-    for name in ["film.mp4", "film.gif", "results/animation.gif"] {
+    for name in [
+        "film.mp4",
+        "film.jpg",
+        "film.gif",
+        "results/animation.gif",
+        "results/picture.png",
+    ] {
         assert!(!folder.path().join(name).exists(), "{name}");
     }
 }

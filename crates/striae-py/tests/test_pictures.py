@@ -46,6 +46,12 @@ def test_wrong_pictures_are_refused(model: st.Model, tmp_path: Path) -> None:
         run.animate(tmp_path / "a.gif", "heat")
     with pytest.raises(st.ModelError, match="path: .*film.mp4: an animation ends in .gif or .png"):
         run.animate(tmp_path / "film.mp4")
+    with pytest.raises(st.ModelError, match="path: .*a.jpg: a picture ends in .png"):
+        run.picture(tmp_path / "a.jpg")
+    with pytest.raises(st.ModelError, match="hide: unknown name `nix` of a body or surface; known"):
+        run.picture(tmp_path / "a.png", hide=["nix"])
+    with pytest.raises(st.ModelError, match="magnify: displacements cannot be magnified by 1e300"):
+        run.picture(tmp_path / "a.png", magnify=1e300)
     with pytest.raises(st.ModelError, match="range: ascending limits are needed"):
         run.picture(tmp_path / "a.png", range=(1, 1))
     with pytest.raises(st.ModelError, match="frame_time: 0.01 to 60 seconds are needed, not 100"):

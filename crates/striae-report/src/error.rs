@@ -42,6 +42,23 @@ pub enum ReportError {
     /// The extension of an animation states no format.
     #[error("{}: an animation ends in .gif or .png; choose one of these", .0.display())]
     Animation(PathBuf),
+    /// The extension of a picture states no format.
+    #[error("{}: a picture ends in .png, with `--animate` in .gif or .png; choose one of these", .0.display())]
+    Still(PathBuf),
+    /// A time that is none.
+    #[error("there is no time {0}; a finite number is needed, and the fields are from time {first} to {last}", first = .1[0], last = .1[1])]
+    Time(f64, [f64; 2]),
+    /// Displacements cannot be magnified so.
+    #[error("displacements cannot be magnified by {0:e}; a number from -{most:e} to {most:e} is needed", most = .1)]
+    Magnification(f64, f64),
+    /// There is no body or surface of this name.
+    #[error("unknown name `{name}` of a body or surface; known names are {known}")]
+    Name {
+        /// Requested name.
+        name: String,
+        /// All names.
+        known: String,
+    },
     /// A picture cannot be written.
     #[error(transparent)]
     Figure(#[from] FigureError),

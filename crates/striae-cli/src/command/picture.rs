@@ -38,7 +38,7 @@ pub struct Arguments {
     #[arg(long, value_name = "LEAST,LARGEST", allow_hyphen_values = true, value_parser = range)]
     range: Option<[f64; 2]>,
     /// Magnification of displacements.
-    #[arg(long, default_value_t = 1.0)]
+    #[arg(long, default_value_t = 1.0, allow_negative_numbers = true)]
     magnify: f64,
     /// A body or a surface to leave out; may be repeated.
     #[arg(long, value_name = "NAME")]

@@ -134,7 +134,10 @@ pub fn picture(
         ReportError::Field { .. } => refused("field", error),
         ReportError::Component { .. } => refused("component", error),
         ReportError::View => refused("view", error),
-        ReportError::Animation(_) => refused("path", error),
+        ReportError::Animation(_) | ReportError::Still(_) => refused("path", error),
+        ReportError::Time(..) => refused("time", error),
+        ReportError::Magnification(..) => refused("magnify", error),
+        ReportError::Name { .. } => refused("hide", error),
         _ => PyRuntimeError::new_err(error.to_string()),
     })
 }

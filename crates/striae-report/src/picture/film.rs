@@ -56,9 +56,11 @@ impl<'a> Film<'a> {
         let Some(end) = times.last() else {
             return Err(ReportError::Nothing(folder.to_owned()));
         };
-        let subject = Layers::of(&parts(&results, &[*end])?, picture)?
-            .subject()
-            .clone();
+        picture.check_numbers(&results)?;
+        let last = parts(&results, &[*end])?;
+        picture.check_names(&last)?;
+        let subject = Layers::of(&last, picture)?.subject().clone();
+        drop(last);
         let mut extremes = None;
         let mut outermost = Vec::new();
         for time in &times {

@@ -23,7 +23,11 @@ use std::path::Path;
 
 use striae_figure::Dots;
 
-use crate::{ReportError, invariants, part::parts, results::Results};
+use crate::{
+    ReportError, invariants,
+    part::{Part, parts},
+    results::Results,
+};
 pub use film::animate;
 pub use surfaces::Surfaces;
 
@@ -47,6 +51,9 @@ pub const VIEWS: [(&str, [f64; 3]); 7] = [
     ("top", [0.0, 0.0, -1.0]),
     ("below", [0.0, 0.0, 1.0]),
 ];
+
+/// Largest magnification of displacements.
+const LARGEST: f64 = 1e12;
 
 /// Size of words over the width of a picture.
 const WORDS: f64 = 0.016;
@@ -87,11 +94,47 @@ impl Default for Picture {
     }
 }
 
-/// Writes a picture of a results folder, whole or not at all.
+impl Picture {
+    /// Refuses a time that is none, and a magnification that leads out of all numbers.
+    fn check_numbers(&self, results: &Results) -> Result<(), ReportError> {
+        if let Some(time) = self.time.filter(|time| !time.is_finite()) {
+            let times = results.times();
+            let end = |time: Option<&f64>| time.copied().unwrap_or(0.0);
+            return Err(ReportError::Time(
+                time,
+                [end(times.first()), end(times.last())],
+            ));
+        }
+        match self.magnification.abs() <= LARGEST {
+            true => Ok(()),
+            false => Err(ReportError::Magnification(self.magnification, LARGEST)),
+        }
+    }
+
+    /// Refuses names to be left out that no part has.
+    fn check_names(&self, parts: &[Part]) -> Result<(), ReportError> {
+        let is_known = |name: &&String| parts.iter().any(|part| part.name == **name);
+        let Some(name) = self.hidden.iter().find(|name| !is_known(name)) else {
+            return Ok(());
+        };
+        let known: Vec<&str> = parts.iter().map(|part| part.name.as_str()).collect();
+        Err(ReportError::Name {
+            name: name.clone(),
+            known: known.join(", "),
+        })
+    }
+}
+
+/// Writes a picture of a results folder, whole or not at all. The file is a PNG.
 ///
 /// # Errors
-/// When there is nothing to show, a field is not known, or a file cannot be read or written.
+/// When there is nothing to show, a field or a name is not known, the extension is not `png`, or
+/// a file cannot be read or written.
 pub fn write(folder: &Path, picture: &Picture, file: &Path) -> Result<(), ReportError> {
+    let ending = file.extension().and_then(|ending| ending.to_str());
+    if !ending.is_some_and(|ending| ending.eq_ignore_ascii_case("png")) {
+        return Err(ReportError::Still(file.to_owned()));
+    }
     Ok(render(folder, picture)?.write_png(file)?)
 }
 
@@ -102,6 +145,7 @@ pub fn write(folder: &Path, picture: &Picture, file: &Path) -> Result<(), Report
 pub fn render(folder: &Path, picture: &Picture) -> Result<Dots, ReportError> {
     let results = Results::read(folder)?;
     let nothing = || ReportError::Nothing(folder.to_owned());
+    picture.check_numbers(&results)?;
     let wanted = picture.time.unwrap_or(f64::INFINITY);
     let distance = |time: &f64| match wanted.is_finite() {
         true => (time - wanted).abs(),
@@ -112,6 +156,7 @@ pub fn render(folder: &Path, picture: &Picture) -> Result<Dots, ReportError> {
     let time = nearest.min_by(|a, b| distance(a).total_cmp(&distance(b)));
     let time = time.ok_or_else(nothing)?;
     let parts = parts(&results, &[time])?;
+    picture.check_names(&parts)?;
     let layers = Layers::of(&parts, picture)?;
     let view = View::along(picture.direction, &layers.corners(), picture.width)?;
     let mut canvas = Canvas::new(view.size());
