@@ -9,6 +9,8 @@ use striae_output::{OutputError, checkpoint::CheckpointError};
 use striae_report::ReportError;
 use striae_solve::{outcome::Ending, problem::ProblemError};
 
+use crate::shell::word;
+
 /// Exit code of an interrupted program: 128 and the number of the signal, as shells have it.
 pub const INTERRUPTED: u8 = 130;
 /// Exit code of a request that is not possible.
@@ -20,6 +22,9 @@ pub enum Failure {
     /// The deck is faulty.
     #[error("{0}")]
     Deck(#[from] Faults),
+    /// Constants of a law on the command line are faulty.
+    #[error("{0}")]
+    Constants(String),
     /// A model is faulty.
     #[error("{0}")]
     Model(Box<striae::Error>),
@@ -38,7 +43,10 @@ pub enum Failure {
     #[error("{0}")]
     Checkpoint(#[from] CheckpointError),
     /// A run was interrupted, and a checkpoint is there to continue from.
-    #[error("interrupted at time {time:.6}; continue with `striae resume {}`", folder.display())]
+    #[error(
+        "interrupted at time {time:.6}; continue with `striae resume {}`",
+        word(folder)
+    )]
     Interrupted {
         /// Time of the last converged state.
         time: f64,
@@ -83,6 +91,9 @@ pub enum Failure {
     /// Results cannot be written.
     #[error("{0}")]
     Results(#[from] OutputError),
+    /// Results that the request names cannot be read.
+    #[error("{0}")]
+    Given(OutputError),
     /// A figure cannot be drawn or written.
     #[error("{0}")]
     Figure(#[from] FigureError),
@@ -185,6 +196,7 @@ impl Failure {
             #[cfg(not(feature = "petsc"))]
             Self::NoPetsc => ExitCode::from(IMPOSSIBLE),
             Self::Deck(_)
+            | Self::Constants(_)
             | Self::Model(_)
             | Self::Exists(_)
             | Self::Checkpoint(_)
@@ -192,11 +204,16 @@ impl Failure {
             | Self::Measurements(_)
             | Self::Mesh(_)
             | Self::Fit(_)
+            | Self::Given(_)
             | Self::Report(
                 ReportError::Nothing(_)
                 | ReportError::Field { .. }
                 | ReportError::Component { .. }
                 | ReportError::Animation(_)
+                | ReportError::Still(_)
+                | ReportError::Time(..)
+                | ReportError::Magnification(..)
+                | ReportError::Name { .. }
                 | ReportError::View,
             )
             | Self::Results(OutputError::Occupied(_) | OutputError::InUse(_))

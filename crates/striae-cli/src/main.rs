@@ -11,6 +11,7 @@ mod interrupt;
 mod progress;
 mod ranks;
 mod reporting;
+mod shell;
 mod source;
 
 use clap::{CommandFactory, Parser, Subcommand};

@@ -124,6 +124,8 @@ fn what_the_deck_lacks_is_told() {
     let (code, out, errors) = said(folder, &["convert", "model.inp", "--out", "made.toml"]);
     assert_eq!(code, Some(2), "{out}{errors}");
     assert!(out.contains("line 33: *MATERIAL `Foam`"), "{out}");
+    let end = "wrote made.toml\nnext: complete the deck, then: striae check made.toml\n";
+    assert!(out.ends_with(end), "{out}");
     assert!(
         errors.contains("made.toml") && errors.contains("`Foam`"),
         "{errors}"

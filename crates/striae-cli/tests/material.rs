@@ -59,6 +59,22 @@ fn materials_are_drawn_once_with_their_range_of_stability() {
     }
 }
 
+/// Files are named by bodies, with what file systems do not take spelled out.
+#[test]
+fn any_name_of_a_body_gives_a_file() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let deck = DECK.replace("\"one\"", "\"../one\"");
+    fs::write(folder.path().join("deck.toml"), deck).expect("a deck");
+    let output = Command::new(env!("CARGO_BIN_EXE_striae"))
+        .args(["material", "deck.toml", "--out", "made"])
+        .current_dir(folder.path())
+        .output()
+        .expect("the program");
+    assert!(output.status.success(), "{output:?}");
+    let file = folder.path().join("made/material-%2E.%2Fone.svg");
+    assert!(file.exists(), "{output:?}");
+}
+
 #[test]
 fn stretches_on_the_wrong_side_are_refused() {
     let output = Command::new(env!("CARGO_BIN_EXE_striae"))

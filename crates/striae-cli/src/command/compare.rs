@@ -43,10 +43,6 @@ struct Difference {
 /// Prints the differences, the largest first.
 pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     let folders = [&arguments.a, &arguments.b];
-    let read = |folder: &Path| -> Result<(Summary, Table), Failure> {
-        let summary = Summary::read(&folder.join("summary.json"))?;
-        Ok((summary, Table::read(&folder.join("history.csv"))?))
-    };
     let [(one, first), (other, second)] = [read(folders[0])?, read(folders[1])?];
     for (folder, summary) in folders.into_iter().zip([&one, &other]) {
         writeln!(
@@ -93,6 +89,13 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
         Some(words) => Err(Failure::Differ(words)),
         None => Ok(()),
     }
+}
+
+/// Summary and history of a run.
+fn read(folder: &Path) -> Result<(Summary, Table), Failure> {
+    let summary = Summary::read(&folder.join("summary.json")).map_err(Failure::Given)?;
+    let history = Table::read(&folder.join("history.csv")).map_err(Failure::Given)?;
+    Ok((summary, history))
 }
 
 /// Warnings of a run that another one has not, of the same kind about the same pair.

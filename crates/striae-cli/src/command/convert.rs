@@ -6,7 +6,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use crate::failure::Failure;
+use crate::{failure::Failure, shell::word};
 
 /// Convert an Abaqus model to a deck; keywords without a counterpart are listed with their lines.
 #[derive(clap::Args)]
@@ -38,8 +38,13 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
         writeln!(out, "  {line}")?;
     }
     writeln!(out, "wrote {}", deck.display())?;
-    striae_deck::read(&deck)?;
-    writeln!(out, "next: striae check {}", deck.display())?;
+    let read = striae_deck::read(&deck);
+    let next = match read {
+        Ok(_) => "next:",
+        Err(_) => "next: complete the deck, then:",
+    };
+    writeln!(out, "{next} striae check {}", word(&deck))?;
+    read?;
     Ok(())
 }
 

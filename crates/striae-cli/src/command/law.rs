@@ -67,7 +67,7 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
             (of_model(&read.model), folder)
         }
         (None, Some((law, constants))) => {
-            let friction = deck::friction(&in_deck_words(law, constants), &format!("--{law}"))?;
+            let friction = constants::friction(law, constants)?;
             let named = Named {
                 title: "constants".to_owned(),
                 file: (*law).to_owned(),
@@ -102,31 +102,6 @@ pub fn make_folder(folder: &Path) -> Result<(), Failure> {
         path: folder.to_owned(),
         cause,
     })
-}
-
-/// `key=value,..` as keys of a `friction` table, numbers and words as TOML wants them;
-/// a value in brackets or braces is a list or a table and stays as it is.
-fn in_deck_words(law: &str, constants: &str) -> String {
-    let mut inside = 0;
-    let between = |character: char| {
-        inside += match character {
-            '[' | '{' => 1,
-            ']' | '}' => -1,
-            _ => 0,
-        };
-        character == ',' && inside == 0
-    };
-    let constants = constants.split(between);
-    let constants = constants.filter(|one| !one.trim().is_empty());
-    let line = |one: &str| match one.split_once('=') {
-        Some((key, value)) => match (key.trim(), value.trim(), value.trim().parse::<f64>()) {
-            (key, _, Ok(number)) => format!("{key} = {number:?}\n"),
-            (key, list, _) if list.starts_with(['[', '{']) => format!("{key} = {list}\n"),
-            (key, word, _) => format!("{key} = {word:?}\n"),
-        },
-        None => format!("{one}\n"),
-    };
-    format!("law = {law:?}\n") + &constants.map(line).collect::<String>()
 }
 
 /// The frictions of a model.
@@ -340,7 +315,7 @@ mod tests {
         let scratch = tempfile::tempdir().unwrap();
         let refused = |law: &str, constants: &str| {
             let failure = said(&[law, constants], scratch.path()).unwrap_err();
-            assert!(matches!(failure, Failure::Deck(_)), "exit code 2");
+            assert!(matches!(failure, Failure::Constants(_)), "exit code 2");
             failure.to_string()
         };
         let text = refused("--two-textures", "mu=0.3,c_mag=0,c_ang=-1,c_cen=0");
@@ -354,6 +329,16 @@ mod tests {
         assert!(text.contains("did you mean `c_cen`"), "{text}");
         let text = refused("--tabulated", "angles=[0,90,360],mu=[0.1,0.2,0.1]");
         assert!(text.contains("must span less than a turn"), "{text}");
+        let text = refused("--orthotropic", "mu_along=0.2");
+        assert_eq!(
+            text,
+            "--orthotropic: `mu_across` is missing; add `mu_across=VALUE`, a number greater than 0"
+        );
+        let text = refused("--orthotropic", "mu_along=nan,mu_across=1");
+        assert!(
+            text.starts_with("--orthotropic: `mu_along` must be"),
+            "{text}"
+        );
         let text = refused("--coulomb", "mu=much");
         assert!(text.contains("must be a number of at least 0"), "{text}");
         assert_eq!(scratch.path().read_dir().unwrap().count(), 0);

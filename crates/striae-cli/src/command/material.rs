@@ -10,6 +10,7 @@ use striae::{
     case_name,
     figures::material::{Test, figure},
 };
+use striae_files::Stems;
 use striae_law::bulk::{LameConstants, Material};
 use striae_solve::model::Body;
 
@@ -42,7 +43,14 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
         return Ok(());
     }
     make_folder(&folder)?;
-    let shown: Vec<Shown> = model.bodies.iter().flat_map(Shown::of).collect();
+    let mut stems = Stems::default();
+    let shown = model.bodies.iter().flat_map(Shown::of);
+    let shown: Vec<Shown> = shown
+        .map(|shown| Shown {
+            file: format!("material-{}", stems.take(&shown.file)),
+            ..shown
+        })
+        .collect();
     for (at, one) in shown.iter().enumerate() {
         let same = |other: &&Shown| other.material == one.material;
         match shown[..at].iter().find(same) {
@@ -57,7 +65,7 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
 struct Shown<'m> {
     /// The body or section.
     name: String,
-    /// Name of the file of its figure.
+    /// Wanted, and later given, name of the file of its figure.
     file: String,
     material: &'m Material,
 }
@@ -76,7 +84,7 @@ impl<'m> Shown<'m> {
             };
             Self {
                 name,
-                file: format!("material-{file}"),
+                file,
                 material: body.material_of(section),
             }
         };

@@ -1,6 +1,6 @@
 //! `striae new NAME`: a commented deck to start from.
 
-use crate::failure::Failure;
+use crate::{failure::Failure, shell::word};
 use std::{
     fs,
     io::{self, Write},
@@ -72,13 +72,9 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
         striae_deck::json_schema(&striae_deck::Laws::default())
     );
     fs::write(&schema, text).map_err(|cause| unwritable(&schema, cause))?;
-    let path = deck.display().to_string();
-    let is_plain = |letter: char| letter.is_alphanumeric() || "/\\._-:".contains(letter);
-    let argument = match path.chars().all(is_plain) {
-        true => path.clone(),
-        false => format!("\"{path}\""),
-    };
-    writeln!(out, "wrote {path}\nnext: striae check {argument}")?;
+    let path = deck.display();
+    let next = word(&deck);
+    writeln!(out, "wrote {path}\nnext: striae check {next}")?;
     Ok(())
 }
 

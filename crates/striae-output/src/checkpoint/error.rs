@@ -17,6 +17,15 @@ pub enum CheckpointError {
         /// Folder that was searched.
         folder: PathBuf,
     },
+    /// The run was ended before it wrote a checkpoint.
+    #[error(
+        "{} has no {FILE}: the run ended before its first checkpoint; run its deck again, with `--overwrite`",
+        folder.display()
+    )]
+    TooEarly {
+        /// Its folder.
+        folder: PathBuf,
+    },
     /// The run was completed.
     #[error(
         "{0} holds a completed run; to continue it with other steps, use `striae resume {0} --with NEW.toml`",

@@ -43,9 +43,14 @@ impl Index {
         match fs::read(&path) {
             Ok(bytes) => Self::taken(path, &bytes),
             Err(cause) if cause.kind() == ErrorKind::NotFound => {
+                let has = |name: &str| folder.join(name).exists();
                 let folder = folder.to_owned();
-                Err(match folder.join(END).exists() {
+                Err(match has(END) {
                     true => CheckpointError::Completed { folder },
+                    // A run begins with a folder of fields, and has a summary at its end.
+                    false if has("fields") && !has("summary.json") => {
+                        CheckpointError::TooEarly { folder }
+                    }
                     false => CheckpointError::Missing { folder },
                 })
             }
