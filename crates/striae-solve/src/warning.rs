@@ -39,7 +39,7 @@ use striae_contact::{
     selection::deepest,
     side::Side,
 };
-use striae_mesh::{ElementId, NodeId, Vec3};
+use striae_mesh::{ElementId, NodeId, Vec3, significant};
 use striae_surface::node::SurfaceNode;
 
 use crate::{
@@ -647,8 +647,9 @@ fn warning(problem: &Problem, worst: &Worst) -> Warning {
             "body `{name}` penetrates itself, or another body without a pair between them, by {percent:.0} % of the facet size at time {time:.4}"
         ),
         Kind::Coarse => format!(
-            "pair `{name}`: facets of size {size:.2e} at {place} are too coarse for the contact zone at time {time:.4}, where its force is largest; a size of {:.2e} suffices",
-            size / value
+            "pair `{name}`: facets of size {} at {place} are too coarse for the contact zone at time {time:.4}, where its force is largest; a size of {} suffices",
+            significant(size, 3),
+            significant(size / value, 2)
         ),
         Kind::Passage => {
             format!("pair `{name}`: its sides have passed through each other at time {time:.4}")

@@ -9,8 +9,9 @@
 //! w = sqrt(12 l),   l = middle eigenvalue of  sum A_I (x_I - x)(x_I - x)^T / sum A_I + mean A_I / 12
 //! ```
 //!
-//! which is 1.73 times the radius of a round zone. Facets of `w /` [`FACETS`] would do. Zones that
-//! end at the edge of a surface are as wide as that is, and are not judged.
+//! which is 1.73 times the radius of a round zone. Facets are too coarse where fewer than [`FEWEST`]
+//! lie across it, and [`FACETS`] would do. Zones that end at the edge of a surface are as wide as
+//! that is, and are not judged.
 
 use nalgebra::{Matrix3, SymmetricEigen};
 use striae_contact::{configuration::Configuration, interference::across, side::Side};
@@ -23,8 +24,10 @@ use crate::{
     state::State,
 };
 
+/// Facets across the zone of contact that show roughly its size.
+const FEWEST: f64 = 3.0;
 /// Facets across the zone of contact that would do.
-const FACETS: f64 = 3.0;
+const FACETS: f64 = 5.0;
 
 /// Facets that are too coarse for the contact that they are in.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,7 +53,7 @@ pub fn coarse(problem: &Problem, pair: usize, state: &State) -> Option<Coarse> {
     if zones.iter().any(|zone| zone.ends_at_edge) {
         return None;
     }
-    let enough = finest.width() / FACETS;
+    let width = finest.width();
     let opposite = finest.opposite(&at);
     let own = (finest.middle, finest.side, finest.size);
     let (node, side, size) = [Some(own), opposite]
@@ -58,11 +61,11 @@ pub fn coarse(problem: &Problem, pair: usize, state: &State) -> Option<Coarse> {
         .flatten()
         .max_by(|a, b| a.2.total_cmp(&b.2))?;
     let (body, node) = problem.named_node(problem.surface_node(pair, side, node)?);
-    (size > enough).then_some(Coarse {
+    (size > width / FEWEST).then_some(Coarse {
         body,
         node,
         size,
-        enough,
+        enough: width / FACETS,
     })
 }
 

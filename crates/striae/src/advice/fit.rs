@@ -52,20 +52,22 @@ fn words(model: &Model, pair: PairId, fit: &Fit) -> String {
             place(x)
         )
     };
-    let gap = match &fit.gap {
-        Some(gap) => {
-            let place = at(gap.side, gap.spot, &gap.point);
-            format!("smallest gap {} at {place}", significant(gap.gap, 4))
-        }
-        None => format!(
-            "the sides do not face each other; nearest distance {}",
-            significant(fit.distance, 4)
-        ),
-    };
     let overlap = fit
         .overlap
         .as_ref()
         .filter(|overlap| overlap.share() > ROUND_OFF);
+    let gap = match (&fit.gap, overlap) {
+        (Some(gap), _) => {
+            let place = at(gap.side, gap.spot, &gap.point);
+            format!("smallest gap {} at {place}", significant(gap.gap, 4))
+        }
+        // All that faces the other side is inside it.
+        (None, Some(_)) => "no gap".to_owned(),
+        (None, None) => format!(
+            "the sides do not face each other; nearest distance {}",
+            significant(fit.distance, 4)
+        ),
+    };
     let overlap = overlap.map_or("no overlap".into(), |overlap| {
         let place = at(overlap.side, overlap.spot, &overlap.point);
         let share = 100.0 * overlap.share();

@@ -13,6 +13,8 @@
 
 mod width;
 
+pub(super) use width::of_side;
+
 use std::collections::BTreeSet;
 
 use striae_contact::initial::Fit;

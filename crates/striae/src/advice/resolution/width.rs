@@ -70,12 +70,13 @@ pub(in crate::advice) fn look(
     let count = width / size;
     if count < FEW {
         let text = format!(
-            "pair `{}`: in step `{}` contact is about {width} wide at {}, {count:.1} facets of `{name}` of {size}; forces need about five facets over the contact, pressures ten: refine `{name}` there",
+            "pair `{}`: in step `{}` contact is about {width} wide at {}, {count:.1} facets of `{name}` of {size}; forces need about five facets over the contact, a size of {enough}, pressures ten: refine `{name}` there",
             pair.name,
             step.name,
             place(&middle),
             width = significant(width, 2),
-            size = significant(size, 2)
+            size = significant(size, 2),
+            enough = significant(width / FEW, 2)
         );
         advice.note(Topic::Fit, &pair.name, text);
     }
@@ -86,7 +87,7 @@ fn both<T>([a, b]: [Option<T>; 2]) -> Option<[T; 2]> {
 }
 
 /// The farthest prescribed displacement of a side.
-fn of_side(model: &Model, step: &Step, side: &ContactSurface) -> Vec3 {
+pub(in crate::advice) fn of_side(model: &Model, step: &Step, side: &ContactSurface) -> Vec3 {
     let mesh_of = |body: BodyId| &model.bodies[body.0].mesh;
     let mut ways: Vec<Vec3> = Vec::new();
     if let ContactSurface::Deformable { body, .. } = side {
