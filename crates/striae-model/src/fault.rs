@@ -559,6 +559,18 @@ pub enum FaultKind {
         /// The step.
         step: String,
     },
+    /// A coordinate of a rigid body that is free and has a target.
+    #[error(
+        "coordinate `{coordinate}` of rigid body `{rigid}` is `free`, so it follows the forces and has no target, but its target is {target}; remove it from `free`, or make the target 0"
+    )]
+    FreeTarget {
+        /// The coordinate.
+        coordinate: &'static str,
+        /// The rigid body.
+        rigid: String,
+        /// Its target, with angles in degrees.
+        target: f64,
+    },
     /// A node that follows a rigid body and is prescribed.
     #[error(
         "step `{step}` prescribes {node} of body `{body}`, which is tied to a rigid body; move the rigid body instead"
@@ -711,6 +723,19 @@ pub enum FaultKind {
         load: f64,
         /// Names of the pairs.
         pairs: Vec<String>,
+    },
+    /// A contact surface that displacements move into a rigid plane.
+    #[error(
+        "pair `{pair}`: in step `{step}` displacements move all nodes of its contact surface, up to {} deep into the rigid plane, so contact can have no effect; prescribe nodes away from the contact surface, such as those of the opposite face",
+        significant(*depth, 4)
+    )]
+    PrescribedInto {
+        /// The pair.
+        pair: String,
+        /// The step.
+        step: String,
+        /// The largest depth.
+        depth: f64,
     },
     /// Both sides of a pair are prescribed towards each other.
     #[error(

@@ -27,7 +27,7 @@ pub use build::{
     surface, tie, tied, turned, uniform, usual_curve,
 };
 pub use check::{
-    Draft, DraftBody, DraftPair, DraftStep, Known, Named, Validate, cavity_faults, misshapen,
+    Draft, DraftBody, DraftPair, DraftStep, Known, Named, Validate, misshapen, whole_faults,
 };
 pub use fault::{Fault, FaultKind, Faults};
 pub use fit::fitted;

@@ -48,9 +48,10 @@ use listed::Listed;
 use place::Places;
 use std::path::Path;
 use step::LoweredStep;
+use striae_declared::shown;
 use striae_model::{
-    Draft, DraftPair, DraftStep, Fault, FaultKind as ModelFault, Known, Lowered, Named,
-    cavity_faults, fitted,
+    Draft, DraftPair, DraftStep, Fault, FaultKind as ModelFault, Known, Lowered, Named, fitted,
+    whole_faults,
 };
 use striae_solve::model::{Backend, Cavity, Model, RigidSurface, Solver, Spring, Strategy, Tie};
 
@@ -92,7 +93,7 @@ pub(super) fn deck(raw: &raw::Simulation, base: &Path, faults: &mut FaultList<'_
     }
     let notes = stated(raw).chain(parts.bodies.notes()).collect();
     let model = parts.model(raw)?;
-    note(cavity_faults(&model), raw, &places, faults);
+    note(whole_faults(&model, &[]), raw, &places, faults);
     if !faults.is_empty() {
         return None;
     }
@@ -119,7 +120,7 @@ fn stated(raw: &raw::Simulation) -> impl Iterator<Item = String> {
         (!all.is_empty()).then(|| format!("{what}: {}", all.join(", ")))
     };
     let numbers = raw.parameters.iter().flat_map(|at| &at.value.0);
-    let numbers = numbers.map(|(name, value)| format!("{name} = {value}"));
+    let numbers = numbers.map(|(name, value)| format!("{name} = {}", shown(*value)));
     let files = raw.include.iter().flat_map(|at| &at.value.0);
     let files = files.map(|file| format!("`{}`", file.0));
     let notes = [

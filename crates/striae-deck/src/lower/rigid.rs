@@ -132,6 +132,7 @@ pub(super) fn motions(
         let name = motion.value.surface.as_ref();
         let surface = name.and_then(|name| scope.rigid.find(name, faults));
         let curve = scope.curves.find(motion.value.curve.as_ref(), faults);
+        free_targets(&motion.value, faults);
         let target = |target: &Option<At<[_; 3]>>| target.as_ref().map(|at| vector(&at.value));
         Some(RigidMotion {
             surface: RigidId(surface?),
@@ -141,6 +142,33 @@ pub(super) fn motions(
             curve: curve?,
         })
     })
+}
+
+/// Notes coordinates that are free and have a target; zeros fill the place of those without one.
+fn free_targets(raw: &raw::RigidMotion, faults: &mut FaultList<'_>) {
+    let target = |target: &Option<At<[_; 3]>>| target.as_ref().map(|at| vector(&at.value));
+    let targets = [target(&raw.displacement), target(&raw.rotation)];
+    let name = raw.surface.as_ref().map_or("", |name| &name.value.0);
+    for free in list(&raw.free) {
+        let (at, coordinate) = match free.value {
+            raw::Coordinate::X => (0, "x"),
+            raw::Coordinate::Y => (1, "y"),
+            raw::Coordinate::Z => (2, "z"),
+            raw::Coordinate::Rx => (3, "rx"),
+            raw::Coordinate::Ry => (4, "ry"),
+            raw::Coordinate::Rz => (5, "rz"),
+        };
+        let target = targets[at / 3].map_or(0.0, |target| target[at % 3]);
+        if target != 0.0 {
+            let rigid = name.into();
+            let kind = ModelFault::FreeTarget {
+                coordinate,
+                rigid,
+                target,
+            };
+            faults.push(&free.span, kind);
+        }
+    }
 }
 
 fn coordinates(raw: &raw::RigidMotion) -> [Freedom; 6] {

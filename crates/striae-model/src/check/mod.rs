@@ -12,6 +12,7 @@ mod facets;
 mod functions;
 mod hold;
 mod inertia;
+mod into;
 mod numbers;
 mod pairs;
 mod pieces;
@@ -25,7 +26,6 @@ mod steps;
 mod ties;
 mod triangles;
 
-pub use cavities::faults as cavity_faults;
 pub use numbers::misshapen;
 pub(crate) use numbers::of_everything;
 
@@ -141,9 +141,19 @@ impl Validate for Model {
         if faults.is_empty() {
             faults = Draft::of(self).faults();
             faults.extend(numbers::faults(self));
-            faults.extend(cavities::faults(self));
+            faults.extend(whole_faults(self, &faults));
         }
         faults
+    }
+}
+
+/// Faults that only a whole model shows: of cavities, and, if there are no others, of bodies that
+/// contact can only push away and surfaces that are moved into a plane.
+pub fn whole_faults(model: &Model, others: &[Fault]) -> Vec<Fault> {
+    let of_cavities = cavities::faults(model);
+    match others.is_empty() && of_cavities.is_empty() {
+        true => [pushed::faults(model), into::faults(model)].concat(),
+        false => of_cavities,
     }
 }
 
@@ -220,7 +230,6 @@ impl<'a> Draft<'a> {
             if impossible.is_empty() && partial.is_empty() {
                 hold::check(self, &mut faults);
                 pieces::check(self, &mut faults);
-                pushed::check(self, &mut faults);
             }
             prescribed::check(self, &impossible, &partial, &mut faults);
             rigid::check(self, &impossible, &partial, &mut faults);

@@ -2,253 +2,337 @@
 //!
 //! Contact pushes and never pulls. Where all contact surfaces of a body push it the same way
 //! along an axis, no node is prescribed along that axis and the loads do not push it back, no
-//! quasi-static equilibrium with a contact force exists: the body flies off. The first step is
-//! judged, in which nothing has been pressed together yet.
+//! quasi-static equilibrium with a contact force exists: the body flies off. Every step is judged,
+//! with the loads that it has from earlier ones: they may not pull on the way, and must press at
+//! some time.
 //!
 //! ```text
 //! d_j > mu |d - d_j e_j| for the push d = -n of every facet,  f_j >= 0  ->  pushed away along +j
 //! ```
 //!
-//! With friction, forces lie in a cone about `d`: a block stands on a rough slope.
+//! With friction, forces lie in a cone about `d`: a block stands on a rough slope. A pair that is
+//! stabilised carries a body that nothing loads, but none that is pulled: what it resists with is
+//! gone at the end of the step. Inertia holds what has mass.
 
+use striae_law::friction::Friction;
 use striae_mesh::{Face, Mesh, NodeId, Vec3};
-use striae_solve::model::{
-    BodyId, ContactSurface, Freedom, LoadExtent, LoadKind, Mover, NodalForce, Pair, Procedure,
-    RigidId, Step,
+use striae_solve::{
+    model::{
+        Body, BodyId, CavityContent, ContactSurface, LoadExtent, LoadKind, Model, Moment, Mover,
+        Procedure, RigidId, Step,
+    },
+    plan::{StepPlan, plans},
 };
 
-use super::{Draft, List, hold};
-use crate::{fault::FaultKind, path::Path};
+use crate::{
+    fault::{Fault, FaultKind},
+    path::Path,
+};
 
 /// Component of a push that counts as zero.
 const ACROSS: f64 = 0.17;
 /// Friction over pressure at most, in multiples of the largest coefficient at rest.
 const LARGEST: f64 = 3.0;
+/// Resultant over the sum of the magnitudes of loads that counts as zero.
+const NO_LOAD: f64 = 1e-9;
+/// Parts of a step at whose ends loads are looked at.
+const PARTS: usize = 8;
 
-/// Notes every body, or piece of one, that can only be pushed away in the first step.
-pub(super) fn check(draft: &Draft<'_>, faults: &mut List) {
-    let Some(step) = draft.steps.first().map(|of| of.step) else {
-        return;
-    };
-    if step.procedure != Procedure::QuasiStatic {
-        return;
-    }
-    for index in 0..draft.bodies.len() {
-        if !hold::is_sprung(draft, Mover::Deformable(BodyId(index))) {
-            of_body(draft, step, BodyId(index), faults);
-        }
-    }
-    for (index, rigid) in draft.rigid_surfaces.iter().enumerate() {
-        let is_sprung = hold::is_sprung(draft, Mover::Rigid(RigidId(index)));
-        if rigid.part.is_some_and(|rigid| rigid.ties.is_empty()) && !is_sprung {
-            of_rigid(draft, step, RigidId(index), faults);
-        }
-    }
+/// Every body, or piece of one, that can only be pushed away, in the first step in which it can.
+pub(super) fn faults(model: &Model) -> Vec<Fault> {
+    let plans = plans(model);
+    let bodies = (0..model.bodies.len()).map(BodyId);
+    let bodies = bodies.filter(|body| !is_joined(model, *body));
+    let pieces = bodies.flat_map(|body| pieces(model, body));
+    let rigid = (0..model.rigid_surfaces.len()).map(RigidId);
+    let rigid = rigid.filter(|rigid| {
+        let untied = model.rigid_surfaces[rigid.0].ties.is_empty();
+        untied && !is_sprung(model, Mover::Rigid(*rigid))
+    });
+    let rigid = rigid.map(|rigid| Pushed::rigid(model, rigid));
+    let movers = pieces.chain(rigid);
+    movers
+        .filter_map(|mover| {
+            let mut steps = model.steps.iter().zip(&plans).enumerate();
+            steps.find_map(|(index, (step, plan))| {
+                let kind = mover.away(model, step, plan)?;
+                let path = Path::part("steps", index);
+                Some(Fault { path, kind })
+            })
+        })
+        .collect()
 }
 
-/// Contact of one body: by pair the area vectors of its facets, outward of the body.
-struct Contact<'a> {
-    pairs: Vec<(&'a Pair, Vec<Vec3>)>,
+fn is_sprung(model: &Model, mover: Mover) -> bool {
+    model.springs.iter().any(|spring| spring.holds(mover))
 }
 
-impl Contact<'_> {
-    /// Sign of the pushes along an axis where all have the same, and nothing bridges a gap.
-    fn sign(&self, axis: usize) -> Option<f64> {
-        let along = |v: &Vec3| -v[axis] / v.norm();
-        let pushes = self.pairs.iter().flat_map(|(pair, areas)| {
-            let coefficient = pair.friction.coefficient();
+/// Returns whether ties or springs join a body to others or to ground.
+fn is_joined(model: &Model, body: BodyId) -> bool {
+    let mut to_rigid = model.rigid_surfaces.iter().flat_map(|rigid| &rigid.ties);
+    is_sprung(model, Mover::Deformable(body))
+        || to_rigid.any(|(tied, _)| *tied == body)
+        || model.ties.iter().any(|tie| tie.joins(body))
+}
+
+/// A piece of a body or a rigid body, with what touches it.
+struct Pushed<'m> {
+    /// Its name, as the object of a sentence.
+    name: String,
+    of: Of<'m>,
+    /// Position of a pair and unit directions along which its facets push.
+    pairs: Vec<(usize, Vec<Vec3>)>,
+}
+
+/// A mover.
+enum Of<'m> {
+    Piece {
+        body: BodyId,
+        mesh: &'m Mesh,
+        nodes: Vec<NodeId>,
+    },
+    Rigid(RigidId),
+}
+
+fn pieces(model: &Model, body: BodyId) -> Vec<Pushed<'_>> {
+    let Body { name, mesh, .. } = &model.bodies[body.0];
+    let pieces = mesh.pieces();
+    let count = pieces.len();
+    let pushed = pieces.into_iter().map(|nodes| {
+        let own = |face: &&Face| nodes.binary_search(&mesh.face_nodes(**face)[0]).is_ok();
+        let pushes = |side: &ContactSurface| match side {
+            ContactSurface::Deformable { body: of, faces } if *of == body => {
+                let faces = faces.iter().filter(own);
+                faces.map(|face| -mesh.area_vector(*face).normalize()).collect()
+            }
+            _ => Vec::new(),
+        };
+        // A body does not push itself anywhere.
+        let pairs = model.pairs.iter().enumerate();
+        let pairs = pairs.filter(|(_, pair)| !pair.is_within_a_body());
+        let pairs = pairs.map(|(at, pair)| (at, [pushes(&pair.a), pushes(&pair.b)].concat()));
+        Pushed {
+            name: match count {
+                1 => format!("body `{name}`"),
+                _ => format!(
+                    "the piece with {} of body `{name}`, which is made of {count} pieces that share no nodes (merge coincident nodes in the mesh if they belong together),",
+                    nodes[0]
+                ),
+            },
+            pairs: pairs.filter(|(_, pushes)| !pushes.is_empty()).collect(),
+            of: Of::Piece { body, mesh, nodes },
+        }
+    });
+    pushed.collect()
+}
+
+impl<'m> Pushed<'m> {
+    fn rigid(model: &'m Model, rigid: RigidId) -> Self {
+        let is = |side: &ContactSurface| matches!(side, ContactSurface::Rigid(of) if *of == rigid);
+        let pushes = |side: &ContactSurface| match side {
+            ContactSurface::Deformable { body, faces } => {
+                let mesh = &model.bodies[body.0].mesh;
+                let faces = faces.iter();
+                faces
+                    .map(|face| mesh.area_vector(*face).normalize())
+                    .collect()
+            }
+            ContactSurface::Rigid(_) | ContactSurface::Itself => Vec::new(),
+        };
+        let pairs = model.pairs.iter().enumerate();
+        let pairs = pairs.filter_map(|(at, pair)| match (is(&pair.a), is(&pair.b)) {
+            (true, _) => Some((at, pushes(&pair.b))),
+            (_, true) => Some((at, pushes(&pair.a))),
+            _ => None,
+        });
+        Self {
+            name: format!("rigid body `{}`", model.rigid_surfaces[rigid.0].name),
+            of: Of::Rigid(rigid),
+            pairs: pairs.collect(),
+        }
+    }
+
+    /// The fault that a step lets it be pushed away.
+    fn away(&self, model: &Model, step: &Step, plan: &StepPlan) -> Option<FaultKind> {
+        if self.has_inertia(model, step) || self.is_uncertain(model, plan) {
+            return None;
+        }
+        let free = (0..3).filter(|axis| !self.is_held(plan, *axis));
+        let mut found = free.filter_map(|axis| {
+            let sign = self.sign(&plan.frictions, axis)?;
+            let load = self.pull(model, plan, axis, sign)?;
+            let side = if sign > 0.0 { '+' } else { '-' };
+            Some((load, format!("{side}{}", ["x", "y", "z"][axis])))
+        });
+        let (load, direction) = found.next()?;
+        let pairs = self.pairs.iter();
+        Some(FaultKind::PushedAway {
+            mover: self.name.clone(),
+            direction,
+            step: step.name.clone(),
+            load,
+            pairs: pairs.map(|(at, _)| model.pairs[*at].name.clone()).collect(),
+        })
+    }
+
+    /// True where inertia resists.
+    fn has_inertia(&self, model: &Model, step: &Step) -> bool {
+        let has_mass = match self.of {
+            Of::Piece { .. } => true,
+            Of::Rigid(rigid) => model.rigid_surfaces[rigid.0].inertia.is_some(),
+        };
+        has_mass && step.procedure != Procedure::QuasiStatic
+    }
+
+    /// True of loads that turn, act on what is exposed or come from a cavity: they have no force
+    /// that is known before a run.
+    fn is_uncertain(&self, model: &Model, plan: &StepPlan) -> bool {
+        let Of::Piece { body, .. } = &self.of else {
+            return false;
+        };
+        let mut loads = plan.loads.iter().filter(|load| load.body == *body);
+        let mut cavities = model.cavities.iter().zip(&plan.cavities);
+        loads.any(|load| {
+            matches!(load.to, LoadKind::FollowerTraction(_)) || load.extent != LoadExtent::Whole
+        }) || cavities.any(|(cavity, of)| {
+            let filled = of.curve.is_some() || of.content != CavityContent::Pressure(0.0);
+            filled && cavity.parts.iter().any(|(of, _)| of == body)
+        })
+    }
+
+    /// True where something is prescribed along an axis.
+    fn is_held(&self, plan: &StepPlan, axis: usize) -> bool {
+        let (body, nodes) = match &self.of {
+            Of::Rigid(rigid) => return plan.rigid[rigid.0][axis].is_some(),
+            Of::Piece { body, nodes, .. } => (body.0, nodes),
+        };
+        nodes.iter().any(|node| {
+            let node = node.index();
+            let oblique = plan.oblique.get(&(body, node)).into_iter().flatten();
+            let mut across = oblique.filter(|of| of.direction[axis].abs() > ACROSS);
+            plan.displacements.contains_key(&(body, node, axis)) || across.next().is_some()
+        })
+    }
+
+    /// Sign of the pushes along an axis where all have the same.
+    fn sign(&self, frictions: &[Friction], axis: usize) -> Option<f64> {
+        let pushes = self.pairs.iter().flat_map(|(pair, pushes)| {
+            let coefficient = frictions[*pair].coefficient();
             let factors = [
                 coefficient.by_pressure().largest_factor(),
                 coefficient.by_slip().largest_factor(),
             ];
             let mu = LARGEST * coefficient.at_rest() * factors.iter().product::<f64>();
-            areas.iter().map(move |area| (along(area), mu))
+            pushes.iter().map(move |push| (push[axis], mu))
         });
         let mut pushes = pushes.peekable();
         let sign = pushes.peek()?.0.signum();
-        let bridged = self.pairs.iter().any(|(pair, _)| pair.stabilised);
         let beyond = |(push, mu): (f64, f64)| {
             let across = (1.0 - push * push).max(0.0).sqrt();
             push * sign > ACROSS.max(mu * across)
         };
-        (!bridged && pushes.all(beyond)).then_some(sign)
+        pushes.all(beyond).then_some(sign)
     }
 
-    /// The fault that the mover is pushed along an axis, unless a force holds it.
-    fn pushed(&self, mover: &str, step: &Step, axis: usize, force: f64) -> Option<FaultKind> {
-        let sign = self.sign(axis)?;
-        let load = force * sign;
-        if load < 0.0 {
-            return None;
-        }
-        Some(FaultKind::PushedAway {
-            mover: mover.to_owned(),
-            direction: format!(
-                "{}{}",
-                if sign > 0.0 { '+' } else { '-' },
-                ["x", "y", "z"][axis]
-            ),
-            step: step.name.clone(),
-            load,
-            pairs: self
-                .pairs
-                .iter()
-                .map(|(pair, _)| pair.name.clone())
-                .collect(),
-        })
-    }
-}
-
-fn of_body(draft: &Draft<'_>, step: &Step, body: BodyId, faults: &mut List) {
-    let of = &draft.bodies[body.0];
-    // Loads that turn, vary, or act on what is exposed, have no force that is known before a run.
-    let uncertain = step.loads.iter().any(|load| {
-        let turns = matches!(load.kind, LoadKind::FollowerTraction(_));
-        let varies = load.kind.numbers().is_none();
-        load.body == body && (turns || varies || load.extent != LoadExtent::Whole)
-    });
-    let uncertain = uncertain || !step.fillings.is_empty();
-    let uncertain = uncertain || step.forces.iter().any(|of| of.body == body && varies(of));
-    let Some(mesh) = of
-        .mesh
-        .filter(|_| !uncertain && !hold::is_tied(draft, body))
-    else {
-        return;
-    };
-    let mut prescribed = hold::Held::new();
-    hold::prescribe(&mut prescribed, step, (body, mesh));
-    let pieces = mesh.pieces();
-    for piece in &pieces {
-        let own = |face: &Face| piece.binary_search(&mesh.face_nodes(*face)[0]).is_ok();
-        let contact = contact_of(draft, body, mesh, &own);
-        let held = |axis: usize| {
-            let along = |(_, e): &(usize, Vec3)| e[axis].abs() > ACROSS;
-            let mut held = prescribed.iter().filter(|(_, held)| held.iter().any(along));
-            held.any(|(node, _)| piece.binary_search(node).is_ok())
+    /// The largest force of loads in the direction of the pushes if they pull in the step, zero if
+    /// nothing presses in it.
+    fn pull(&self, model: &Model, plan: &StepPlan, axis: usize, sign: f64) -> Option<f64> {
+        let mut pairs = self.pairs.iter();
+        let is_stabilised = pairs.any(|(pair, _)| model.pairs[*pair].stabilised);
+        let load = |part: usize| {
+            let moment = plan.start.later(part as f64 / PARTS as f64);
+            self.load(model, plan, moment, (axis, sign))
         };
-        let part = piece.len() as f64 / mesh.positions.len() as f64;
-        let force = force(draft, step, (body, mesh), piece, (&own, part));
-        let mover = match pieces.len() {
-            1 => format!("body `{}`", of.name),
-            count => format!(
-                "the piece with {} of body `{}`, which is made of {count} pieces that share no nodes (merge coincident nodes in the mesh if they belong together),",
-                piece[0], of.name
-            ),
-        };
-        let axes = (0..3).filter(|axis| !held(*axis));
-        let mut found = axes.filter_map(|axis| contact.pushed(&mover, step, axis, force[axis]));
-        if let Some(kind) = found.next() {
-            faults.push(Path::part("steps", 0), kind);
+        let last = load(PARTS);
+        if is_stabilised {
+            return (last > 0.0).then_some(last);
         }
+        let loads: Vec<f64> = (0..PARTS).map(load).chain([last]).collect();
+        let largest = loads.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        // A load that has come down to zero at the end of the step has held it until then.
+        let presses = loads[1..].iter().any(|load| *load < 0.0);
+        (largest > 0.0 || !presses).then_some(largest)
     }
-}
 
-fn contact_of<'a>(
-    draft: &Draft<'a>,
-    body: BodyId,
-    mesh: &Mesh,
-    own: &dyn Fn(&Face) -> bool,
-) -> Contact<'a> {
-    let areas = |side: &ContactSurface| -> Vec<Vec3> {
-        match side {
-            ContactSurface::Deformable { body: of, faces } if *of == body => {
-                let faces = faces.iter().filter(|face| own(face));
-                faces.map(|face| mesh.area_vector(*face)).collect()
+    /// Force of all loads along an axis at a moment.
+    fn load(
+        &self,
+        model: &Model,
+        plan: &StepPlan,
+        moment: Moment,
+        (axis, sign): (usize, f64),
+    ) -> f64 {
+        let gravity = sign * plan.gravity.at(moment)[axis];
+        let (mut loads, masses) = match &self.of {
+            Of::Rigid(rigid) => {
+                let of = &model.rigid_surfaces[rigid.0];
+                let mass = of.inertia.map_or(0.0, |inertia| inertia.mass);
+                let force = plan.driving[rigid.0][0].at(moment)[axis];
+                (vec![force], [mass; 2])
             }
-            _ => Vec::new(),
-        }
-    };
-    let pairs = draft.pairs.iter().filter_map(|pair| pair.pair);
-    // A body does not push itself anywhere.
-    let pairs = pairs.filter(|pair| !pair.is_within_a_body());
-    let pairs = pairs.map(|pair| (pair, [areas(&pair.a), areas(&pair.b)].concat()));
-    Contact {
-        pairs: pairs.filter(|(_, areas)| !areas.is_empty()).collect(),
+            Of::Piece { body, mesh, nodes } => {
+                let of = &model.bodies[body.0];
+                let loads = of_piece(plan, moment, (*body, *mesh), nodes, axis);
+                (loads, masses(of, nodes))
+            }
+        };
+        loads.iter_mut().for_each(|load| *load *= sign);
+        // Of densities that differ, that which holds it best.
+        loads.push(
+            masses
+                .map(|mass| mass * gravity)
+                .into_iter()
+                .fold(f64::INFINITY, f64::min),
+        );
+        let sum: f64 = loads.iter().sum();
+        let all: f64 = loads.iter().map(|load| load.abs()).sum();
+        if sum.abs() > NO_LOAD * all { sum } else { 0.0 }
     }
 }
 
-fn varies(force: &NodalForce) -> bool {
-    force
-        .force
-        .iter()
-        .any(|component| component.number().is_none())
-}
-
-/// Force of loads and gravity on a part of a body at the end of the step.
-fn force(
-    draft: &Draft<'_>,
-    step: &Step,
+/// Components of the forces of loads on a piece of a body.
+fn of_piece(
+    plan: &StepPlan,
+    moment: Moment,
     (body, mesh): (BodyId, &Mesh),
-    piece: &[NodeId],
-    (own, part): (&dyn Fn(&Face) -> bool, f64),
-) -> Vec3 {
-    let mut force = Vec3::zeros();
-    for of in step.forces.iter().filter(|of| of.body == body) {
-        let nodes = of
-            .nodes
+    nodes: &[NodeId],
+    axis: usize,
+) -> Vec<f64> {
+    let mut all = Vec::new();
+    let own = |node: &NodeId| nodes.binary_search(node).is_ok();
+    for of in plan.forces.iter().filter(|of| of.body == body) {
+        let force = of.at(moment);
+        let on = of.nodes.iter().filter(|node| own(node));
+        all.extend(on.map(|node| force[axis].at(&mesh.positions[node.index()], 0.0)));
+    }
+    for of in plan.loads.iter().filter(|load| load.body == body) {
+        let load = of.at(moment);
+        let on = of
+            .faces
             .iter()
-            .filter(|node| piece.binary_search(node).is_ok());
-        let each = of.force.map(|component| component.number().unwrap_or(0.0));
-        force += each * nodes.count() as f64;
-    }
-    for load in step.loads.iter().filter(|load| load.body == body) {
-        for face in load.faces.iter().filter(|face| own(face)) {
+            .filter(|face| own(&mesh.face_nodes(**face)[0]));
+        all.extend(on.map(|face| {
             let area = mesh.area_vector(*face);
-            force += match load.kind.numbers() {
-                Some(LoadKind::DeadTraction(t) | LoadKind::FollowerTraction(t)) => t * area.norm(),
-                Some(LoadKind::Pressure(pressure)) => area * -pressure,
-                None => Vec3::zeros(),
-            };
-        }
+            let corners = mesh.face_positions(*face);
+            match load.at(&(corners.iter().sum::<Vec3>() / 4.0)) {
+                LoadKind::DeadTraction(t) | LoadKind::FollowerTraction(t) => t[axis] * area.norm(),
+                LoadKind::Pressure(pressure) => -pressure * area[axis],
+            }
+        }));
     }
-    if let Some(gravity) = &step.gravity {
-        let of = &draft.bodies[body.0];
-        let sections = of.sections.iter().map(|section| section.density);
-        let density = of.density.into_iter().chain(sections).fold(0.0, f64::max);
-        force += gravity.acceleration * density * mesh.volume() * part;
-    }
-    force
+    all
 }
 
-fn of_rigid(draft: &Draft<'_>, step: &Step, rigid: RigidId, faults: &mut List) {
-    let mut motions = step.rigid_motions.iter();
-    let Some(motion) = motions.find(|motion| motion.surface == rigid) else {
-        return;
-    };
-    let contact = contact_on(draft, rigid);
-    let mover = format!("rigid body `{}`", draft.rigid_surfaces[rigid.0].name);
-    let mass = draft.rigid_surfaces[rigid.0].part.and_then(|of| of.inertia);
-    let weight = step.gravity.as_ref().zip(mass);
-    let weight = weight.map_or(Vec3::zeros(), |(gravity, inertia)| {
-        gravity.acceleration * inertia.mass
+/// Least and largest mass that a piece of a body can have by the densities of the body.
+fn masses(body: &Body, nodes: &[NodeId]) -> [f64; 2] {
+    let part = nodes.len() as f64 / body.mesh.positions.len() as f64;
+    let own = body.used_sections().contains(&0).then_some(body.density);
+    let densities = own
+        .into_iter()
+        .chain(body.sections.iter().map(|of| of.density));
+    let volume = part * body.mesh.volume();
+    let [least, most] = densities.fold([f64::INFINITY, 0.0], |[least, most], density| {
+        [density.min(least), density.max(most)]
     });
-    let force = motion.force.unwrap_or_else(Vec3::zeros) + weight;
-    let free = (0..3).filter(|axis| motion.coordinates[*axis] == Freedom::Free);
-    let mut found = free.filter_map(|axis| contact.pushed(&mover, step, axis, force[axis]));
-    if let Some(kind) = found.next() {
-        faults.push(Path::part("steps", 0), kind);
-    }
-}
-
-/// Contact on a rigid body, by the opposite of the area vectors of what touches it.
-fn contact_on<'a>(draft: &Draft<'a>, rigid: RigidId) -> Contact<'a> {
-    let is = |side: &ContactSurface| matches!(side, ContactSurface::Rigid(of) if *of == rigid);
-    let opposite = |side: &ContactSurface| -> Vec<Vec3> {
-        let ContactSurface::Deformable { body, faces } = side else {
-            return Vec::new();
-        };
-        let Some(mesh) = draft.bodies[body.0].mesh else {
-            return Vec::new();
-        };
-        faces.iter().map(|face| -mesh.area_vector(*face)).collect()
-    };
-    let pairs = draft.pairs.iter().filter_map(|pair| pair.pair);
-    let pairs = pairs.filter_map(|pair| match (is(&pair.a), is(&pair.b)) {
-        (true, _) => Some((pair, opposite(&pair.b))),
-        (_, true) => Some((pair, opposite(&pair.a))),
-        _ => None,
-    });
-    Contact {
-        pairs: pairs.collect(),
-    }
+    [least.min(most), most].map(|density| density * volume)
 }

@@ -88,6 +88,9 @@ class Rigid(Made):
             targets[:3] = check.vector(displacement, "displacement")
         if rotation is not None:
             targets[3:] = check.vector(rotation, "rotation")
+        for one, target in zip(COORDINATES, targets):
+            if one in known and target:
+                raise refuse("free", f"{one!r} has the target {target}, but none where it is free")
         driving = [
             None if value is None else check.vector(value, path)
             for value, path in [(force, "force"), (torque, "torque")]

@@ -2,7 +2,10 @@
 //!
 //! Rigid motions that prescribed nodes leave free must be stopped by contact. A pair that touches
 //! stops all motions that its friction and normals resist, whatever its size; an open pair stops
-//! none unless it is stabilised. In later steps contact may have closed.
+//! none unless it is stabilised. In later steps contact may have closed. Bodies that hold each
+//! other are also looked at together.
+
+mod together;
 
 use striae_contact::initial::Fit;
 use striae_law::friction::Law;
@@ -55,11 +58,18 @@ pub(super) fn look(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) {
             _ => by_contact(model, fits, (id, body), &mut motions, advice),
         }
     }
+    together::look(model, fits, step, advice);
 }
 
 fn prescribed(mesh: &Mesh, step: &Step, body: BodyId) -> RigidMotions {
-    let conditions = step.displacements.iter().filter(|of| of.body == body);
     let mut motions = RigidMotions::of(mesh);
+    stop_prescribed(mesh, step, body, &mut motions);
+    motions
+}
+
+/// Stops what prescribed nodes of a body stop.
+fn stop_prescribed(mesh: &Mesh, step: &Step, body: BodyId, motions: &mut RigidMotions) {
+    let conditions = step.displacements.iter().filter(|of| of.body == body);
     for condition in conditions {
         for node in &condition.nodes {
             let x = &mesh.positions[node.index()];
@@ -71,7 +81,47 @@ fn prescribed(mesh: &Mesh, step: &Step, body: BodyId) -> RigidMotions {
             }
         }
     }
-    motions
+}
+
+/// Returns whether a pair touches at the start, or is stabilised until it does.
+fn holds(model: &Model, fits: &[Option<Fit>], pair: usize, mesh: &Mesh) -> bool {
+    let tolerance = TOUCHING * mesh.characteristic_size();
+    let fit = fits[pair].as_ref();
+    let touches = fit.is_some_and(|fit| fit.distance <= tolerance || fit.overlap.is_some());
+    touches || model.pairs[pair].stabilised
+}
+
+fn names(model: &Model, pairs: &[usize]) -> String {
+    let names = pairs
+        .iter()
+        .map(|&at| format!("`{}`", model.pairs[at].name));
+    names.collect::<Vec<_>>().join(", ")
+}
+
+/// Cause and remedy of motions that contact leaves.
+fn cause(model: &Model, [closed, open]: [&[usize]; 2], subject: [&str; 2], left: &str) -> String {
+    let [it, it_is] = subject;
+    let list = |pairs: &[usize]| names(model, pairs);
+    let why = match (closed, open) {
+        ([], []) => "no contact restrains this".to_owned(),
+        (_, []) => format!(
+            "the contact of {} leaves {it} free {left}, as it is frictionless",
+            list(closed)
+        ),
+        ([], _) => format!("nothing restrains {it} before {} closes", list(open)),
+        _ => format!(
+            "with the contact of {} {it_is} free {left} before {} closes",
+            list(closed),
+            list(open)
+        ),
+    };
+    let remedy = match open {
+        [] => "prescribe these motions",
+        _ => {
+            "prescribe these motions, start with the surfaces in contact, or set `stabilise = true` in the pair"
+        }
+    };
+    format!("{why}; {remedy}")
 }
 
 fn by_contact(
@@ -87,12 +137,6 @@ fn by_contact(
     // Contact of a body with itself holds it nowhere.
     let pairs = pairs.filter(|(_, pair)| (is(&pair.a) || is(&pair.b)) && !pair.is_within_a_body());
     let pairs: Vec<usize> = pairs.map(|(index, _)| index).collect();
-    let list = |pairs: &[usize]| {
-        let names = pairs
-            .iter()
-            .map(|&at| format!("`{}`", model.pairs[at].name));
-        names.collect::<Vec<_>>().join(", ")
-    };
     let left = motions.words();
     let text = format!("prescribed nodes leave body `{name}` free to move {left}");
     if model.steps[0].procedure != Procedure::QuasiStatic {
@@ -100,42 +144,21 @@ fn by_contact(
         advice.note(Topic::Hold, name, text);
         return;
     }
-    let tolerance = TOUCHING * body.mesh.characteristic_size();
-    let holds = |at: &usize| {
-        let fit = fits[*at].as_ref();
-        let touches = fit.is_some_and(|fit| fit.distance <= tolerance || fit.overlap.is_some());
-        touches || model.pairs[*at].stabilised
-    };
-    let (closed, open): (Vec<usize>, Vec<usize>) = pairs.iter().partition(|at| holds(at));
+    let (closed, open): (Vec<usize>, Vec<usize>) = pairs
+        .iter()
+        .partition(|at| holds(model, fits, **at, &body.mesh));
     for &pair in &closed {
         stop_by(model, PairId(pair), id, motions);
     }
     if motions.left() == 0 {
-        let text = format!("{text}; contact of {} must restrain it", list(&closed));
+        let closed = names(model, &closed);
+        let text = format!("{text}; contact of {closed} must restrain it");
         advice.note(Topic::Hold, name, text);
         return;
     }
     let left = motions.words();
-    let why = match (&closed[..], &open[..]) {
-        (_, []) => format!(
-            "the contact of {} leaves it free {left}, as it is frictionless",
-            list(&closed)
-        ),
-        ([], _) => format!("nothing restrains it before {} closes", list(&open)),
-        _ => format!(
-            "with the contact of {} it is free {left} before {} closes",
-            list(&closed),
-            list(&open)
-        ),
-    };
-    let remedy = match &open[..] {
-        [] => "prescribe these motions",
-        _ => {
-            "prescribe these motions, start with the surfaces in contact, or set `stabilise = true` in the pair"
-        }
-    };
-    let text = format!("{text}, and {why}; {remedy}");
-    advice.warn(Topic::Hold, name, text);
+    let cause = cause(model, [&closed, &open], ["it", "it is"], &left);
+    advice.warn(Topic::Hold, name, format!("{text}, and {cause}"));
 }
 
 /// Stops what closed contact of a pair stops.

@@ -6,12 +6,21 @@
 //! ```text
 //! h - (u . n - g)
 //! ```
+//!
+//! Loads beside what is prescribed strain a body by about their sum over its cross section and
+//! modulus; where the sides go apart by far more than that, they stay apart.
 
 use striae_contact::initial::Fit;
 use striae_mesh::{NodeId, Vec3, significant};
-use striae_model::{BodyId, ContactSurface, Freedom, Model, Pair, Procedure, RigidId, Step};
+use striae_model::{
+    Body, BodyId, Cavity, ContactSurface, Freedom, LoadKind, Model, Pair, Procedure, RigidId, Step,
+};
 
-use super::{Advice, Topic, fit::area_vectors};
+use super::{
+    Advice, Topic,
+    fit::area_vectors,
+    parts::{Part, moduli},
+};
 
 /// Length of the sum of area vectors over the area from which on a surface has a normal.
 const NORMAL: f64 = 0.7;
@@ -21,6 +30,8 @@ const PRESSED: [f64; 2] = [0.5, 1.0];
 const SPREAD: f64 = 0.5;
 /// Ratio of the motion to the height that counts as zero.
 const NO_WAY: f64 = 1e-9;
+/// Deformation under loads, as bending and thin places may have, over that of a bar.
+const SOFTER: f64 = 10.0;
 
 /// Notes bodies that lose much of their height.
 pub(super) fn look(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) {
@@ -45,6 +56,15 @@ struct Way<'m> {
     towards: f64,
     /// Height that can be pressed.
     height: f64,
+    /// Largest deformation of the bodies towards each other by loads.
+    give: f64,
+}
+
+/// Motion along a direction.
+#[derive(Clone, Copy)]
+struct Motion {
+    prescribed: f64,
+    give: f64,
 }
 
 impl<'m> Way<'m> {
@@ -67,15 +87,18 @@ impl<'m> Way<'m> {
             (of_body(model, *body, step, &n)?, name)
         } else if let ContactSurface::Rigid(rigid) = other {
             let name = &model.rigid_surfaces[rigid.0].name;
-            (of_rigid(step, *rigid, &n)?, name)
+            let prescribed = of_rigid(step, *rigid, &n)?;
+            let give = 0.0;
+            (Motion { prescribed, give }, name)
         } else {
             return None;
         };
         Some(Self {
             step,
             names: [&model.bodies[body.0].name, name],
-            towards: own - opposite,
+            towards: own.prescribed - opposite.prescribed,
             height,
+            give: own.give + opposite.give,
         })
     }
 }
@@ -90,17 +113,19 @@ fn height(model: &Model, body: BodyId, n: &Vec3) -> f64 {
     high - low
 }
 
-/// The farthest that prescribed nodes of a body go along a direction; `None` where loads, ties
-/// or inertia may move the body as well.
-fn of_body(model: &Model, body: BodyId, step: &Step, n: &Vec3) -> Option<f64> {
+/// The farthest that prescribed nodes of a body go along a direction; `None` where ties, inertia,
+/// a cavity or, without such nodes, loads may move the body as well.
+fn of_body(model: &Model, body: BodyId, step: &Step, n: &Vec3) -> Option<Motion> {
     let tied = model.ties.iter().any(|tie| tie.joins(body));
     let rigid = model.rigid_surfaces.iter();
     let tied = tied
         || rigid
             .flat_map(|rigid| &rigid.ties)
             .any(|(of, _)| *of == body);
-    let loaded = step.gravity.is_some() || model.loads(step, body);
-    if tied || loaded || step.procedure != Procedure::QuasiStatic {
+    let in_cavity = |of: &Cavity| of.parts.iter().any(|(of, _)| *of == body);
+    let filled = model.cavities.iter().any(in_cavity);
+    let give = give(model, body, step, n)?;
+    if tied || filled || step.procedure != Procedure::QuasiStatic {
         return None;
     }
     let conditions = step.displacements.iter().filter(|of| of.body == body);
@@ -114,7 +139,49 @@ fn of_body(model: &Model, body: BodyId, step: &Step, n: &Vec3) -> Option<f64> {
         Some(of.numbers()[axis]? * n[axis])
     });
     let farthest = ways.max_by(|a, b| a.abs().total_cmp(&b.abs()));
-    Some(farthest.unwrap_or(0.0))
+    let prescribed = farthest.or((give == 0.0).then_some(0.0))?;
+    Some(Motion { prescribed, give })
+}
+
+/// Estimate from above of the deformation of a body by the loads of the steps up to one; `None`
+/// where they are not known.
+fn give(model: &Model, body: BodyId, step: &Step, n: &Vec3) -> Option<f64> {
+    let Body { mesh, .. } = &model.bodies[body.0];
+    let steps = || {
+        let last = model
+            .steps
+            .iter()
+            .position(|other| std::ptr::eq(other, step));
+        model.steps.iter().take(last.map_or(0, |last| last + 1))
+    };
+    let mut force = 0.0;
+    for load in steps()
+        .flat_map(|step| &step.loads)
+        .filter(|of| of.body == body)
+    {
+        let size = match load.kind.numbers()? {
+            LoadKind::DeadTraction(t) | LoadKind::FollowerTraction(t) => t.norm(),
+            LoadKind::Pressure(p) => p.abs(),
+        };
+        let areas = load.faces.iter().map(|face| mesh.area_vector(*face).norm());
+        force += size * areas.sum::<f64>();
+    }
+    for of in steps()
+        .flat_map(|step| &step.forces)
+        .filter(|of| of.body == body)
+    {
+        let [x, y, z] = [0, 1, 2].map(|axis| of.force[axis].number());
+        force += Vec3::new(x?, y?, z?).norm() * of.nodes.len() as f64;
+    }
+    let parts = Part::all(&model.bodies[body.0]).into_iter();
+    let density = parts.map(|part| part.density);
+    let weight = density.fold(0.0, f64::max) * mesh.volume();
+    let gravity = steps().filter_map(|step| step.gravity.as_ref());
+    force += gravity.map(|of| of.acceleration.norm()).fold(0.0, f64::max) * weight;
+    let height = height(model, body, n);
+    let section = mesh.volume() / height;
+    let [soft, _] = moduli(&model.bodies[body.0]);
+    Some(SOFTER * force * height / (section * soft))
 }
 
 /// True where nodes extend over much of a body across a direction; what is held at its ends is
@@ -158,7 +225,8 @@ fn pressed(pair: &Pair, fit: &Fit, ways: &[Way], advice: &mut Advice) {
         .map_or(fit.distance, |gap| gap.gap)
         .max(0.0);
     let share = |way: &Way| (way.towards - gap) / way.height;
-    let Some(way) = ways.iter().max_by(|a, b| share(a).total_cmp(&share(b))) else {
+    let unloaded = ways.iter().filter(|way| way.give == 0.0);
+    let Some(way) = unloaded.max_by(|a, b| share(a).total_cmp(&share(b))) else {
         return;
     };
     let [a, b] = way.names;
@@ -190,8 +258,8 @@ fn pressed(pair: &Pair, fit: &Fit, ways: &[Way], advice: &mut Advice) {
 /// Warns of sides that all steps only move apart.
 fn apart(model: &Model, pair: &Pair, ways: &[Way], advice: &mut Advice) {
     let none = |way: &Way| NO_WAY * way.height;
-    let never = ways.iter().all(|way| way.towards <= none(way));
-    let leaves = ways.iter().find(|way| way.towards < -none(way));
+    let never = ways.iter().all(|way| way.towards + way.give <= none(way));
+    let leaves = ways.iter().find(|way| way.towards + way.give < -none(way));
     let meant = pair.interference.is_some() || model.steps.len() > ways.len();
     let is_told = advice.warns_of(&pair.name, &[Topic::NeverMeets, Topic::Facing]);
     if let Some(way) = leaves.filter(|_| never && !meant && !is_told) {

@@ -4,10 +4,12 @@
 //! common edge, contact can roll or spread over the edge, onto facets that no pair knows. It does
 //! where the body turns, or where the other side comes that far.
 
+mod spread;
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use striae_mesh::{Face, Mesh, NodeId, Vec3, place};
-use striae_model::{BodyId, ContactSurface, Freedom, Model, RigidShape, Step};
+use striae_model::{BodyId, ContactSurface, Freedom, Model, RigidId, RigidShape, Step};
 
 use super::{Advice, Topic, resolution::approach};
 
@@ -107,22 +109,31 @@ fn reached(
             angle.to_degrees()
         ));
     }
-    let ContactSurface::Rigid(rigid) = other else {
+    let name = match other {
+        ContactSurface::Rigid(rigid) => &model.rigid_surfaces[rigid.0].name,
+        ContactSurface::Deformable { body, .. } => &model.bodies[body.0].name,
+        ContactSurface::Itself => return None,
+    };
+    let reached = match plane(model, other) {
+        Some((rigid, point, n)) => {
+            let way = approach(step, (body, mesh), rigid, &n);
+            let near = |node: &NodeId| (mesh.positions[node.index()] - point).dot(&n) < way;
+            way > 0.0 && rim.iter().any(near)
+        }
+        None => spread::reaches(model, (body, faces), other, step, rim),
+    };
+    reached.then(|| format!("contact with `{name}` spreads that far"))
+}
+
+/// A plane with a point and the normal of it, if a side is one.
+fn plane(model: &Model, side: &ContactSurface) -> Option<(RigidId, Vec3, Vec3)> {
+    let ContactSurface::Rigid(rigid) = side else {
         return None;
     };
-    let RigidShape::Plane { point, normal } = &model.rigid_surfaces[rigid.0].shape else {
-        return None;
-    };
-    let n = normal.normalize();
-    let way = approach(step, (body, mesh), *rigid, &n);
-    let near = |node: &&NodeId| (mesh.positions[node.index()] - point).dot(&n) < way;
-    let reached = rim.iter().any(|node| near(&node)) && way > 0.0;
-    reached.then(|| {
-        format!(
-            "contact with `{}` spreads that far",
-            model.rigid_surfaces[rigid.0].name
-        )
-    })
+    match &model.rigid_surfaces[rigid.0].shape {
+        RigidShape::Plane { point, normal } => Some((*rigid, *point, normal.normalize())),
+        RigidShape::Facets { .. } | RigidShape::Bare => None,
+    }
 }
 
 /// Angle by which a rigid body that a body is tied to turns, other than about the normal of

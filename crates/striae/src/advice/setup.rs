@@ -4,12 +4,22 @@
 pub(super) mod prescribed;
 
 use striae_mesh::significant;
-use striae_model::{Body, BodyId, ContactSurface, Freedom, Model, Procedure, RigidMotion, Step};
+use striae_model::{
+    Body, BodyId, ContactSurface, Freedom, Model, Pair, Procedure, RigidMotion, RigidShape, Step,
+};
 
-use super::{Advice, Topic, parts::Part, shape::extent};
+use super::{
+    Advice, Topic,
+    parts::Part,
+    shape::{box_of, extent},
+};
 
 /// Displacement over the size of a body that is worth a note, and a warning.
 const LARGE: [f64; 2] = [2.0, 10.0];
+/// Slide over the length of both sides of a pair that is hardly meant.
+const FAR: f64 = 3.0;
+/// Length of a plane over that of a body on it.
+const UNBOUNDED: f64 = 30.0;
 /// Component of a normal along an axis.
 const ALONG: f64 = 0.7;
 /// Names of the coordinates of a rigid body.
@@ -19,6 +29,7 @@ const COORDINATES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 pub(super) fn look(model: &Model, advice: &mut Advice) {
     for (index, body) in model.bodies.iter().enumerate() {
         displacements(model, BodyId(index), body, advice);
+        slides(model, BodyId(index), body, advice);
         for step in &model.steps {
             waves(body, step, advice);
         }
@@ -59,6 +70,58 @@ fn displacements(model: &Model, id: BodyId, body: &Body, advice: &mut Advice) {
         ),
         false => advice.note(Topic::Units, name, text),
     }
+}
+
+/// Displacements along contact surfaces that go far beyond both sides of all pairs.
+fn slides(model: &Model, id: BodyId, body: &Body, advice: &mut Advice) {
+    let crossing = crossing(model, id, body);
+    let own = extent(&body.mesh);
+    let lengths = |axis: usize| {
+        let sides = model.pairs.iter().map(Pair::surfaces);
+        let is = |side: &ContactSurface| matches!(side, ContactSurface::Deformable { body, .. } if *body == id);
+        let others = sides.filter_map(move |[a, b]| match (is(a), is(b)) {
+            (true, _) => Some(b),
+            (_, true) => Some(a),
+            _ => None,
+        });
+        let own = (own[1] - own[0])[axis];
+        let others = others.map(move |other| length(model, other, axis).unwrap_or(UNBOUNDED * own));
+        own + others.fold(0.0, f64::max)
+    };
+    let steps = model.steps.iter();
+    let prescribed = steps.flat_map(|step| step.displacements.iter().map(move |of| (step, of)));
+    let far = prescribed
+        .filter(|(_, of)| of.body == id)
+        .find_map(|(step, of)| {
+            let way = of.way(&body.mesh);
+            let mut axes = (0..3).filter(|axis| !crossing[*axis]);
+            let axis = axes.find(|axis| way[*axis].abs() > FAR * lengths(*axis))?;
+            Some((step, axis, way[axis].abs()))
+        });
+    if let Some((step, axis, way)) = far {
+        let name = &body.name;
+        let text = format!(
+            "body `{name}` is {} long along {}, and step `{}` slides nodes of it by {} along it, far beyond what it touches; are the mesh and the displacements in one unit of length?",
+            significant((own[1] - own[0])[axis], 4),
+            COORDINATES[axis],
+            step.name,
+            significant(way, 4)
+        );
+        advice.warn(Topic::Units, name, text);
+    }
+}
+
+/// Extent of a side along an axis; `None` of a plane.
+fn length(model: &Model, side: &ContactSurface, axis: usize) -> Option<f64> {
+    let [low, high] = match side {
+        ContactSurface::Itself => return Some(0.0),
+        ContactSurface::Deformable { body, .. } => extent(&model.bodies[body.0].mesh),
+        ContactSurface::Rigid(rigid) => match &model.rigid_surfaces[rigid.0].shape {
+            RigidShape::Facets { positions, .. } => box_of(positions),
+            RigidShape::Plane { .. } | RigidShape::Bare => return None,
+        },
+    };
+    Some((high - low)[axis])
 }
 
 /// Axes along which a body is pressed or pulled; along contact surfaces it may slide far.

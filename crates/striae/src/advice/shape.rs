@@ -22,9 +22,14 @@ pub(super) fn look(model: &Model, advice: &mut Advice) {
 
 /// Smallest and largest coordinates of nodes.
 pub(super) fn extent(mesh: &Mesh) -> [Vec3; 2] {
+    box_of(&mesh.positions)
+}
+
+/// Least and largest coordinates of points.
+pub(super) fn box_of(points: &[Vec3]) -> [Vec3; 2] {
     let start = [f64::INFINITY, f64::NEG_INFINITY].map(Vec3::repeat);
-    let positions = mesh.positions.iter();
-    positions.fold(start, |[low, high], x| [low.inf(x), high.sup(x)])
+    let points = points.iter();
+    points.fold(start, |[low, high], x| [low.inf(x), high.sup(x)])
 }
 
 fn shape(body: &Body, advice: &mut Advice) {

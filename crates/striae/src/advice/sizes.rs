@@ -1,9 +1,12 @@
 //! Rigid surfaces beside the bodies that they touch.
 
-use striae_mesh::{Vec3, significant};
+use striae_mesh::significant;
 use striae_model::{ContactSurface, Model, RigidShape};
 
-use super::{Advice, Topic, shape::extent};
+use super::{
+    Advice, Topic,
+    shape::{box_of, extent},
+};
 
 /// Size of a rigid surface over that of a body below and above which units seem to differ.
 const SMALL: f64 = 2e-3;
@@ -24,10 +27,7 @@ pub(super) fn look(model: &Model, advice: &mut Advice) {
         let body = &model.bodies[body.0];
         let [low, high] = extent(&body.mesh);
         let size = (high - low).norm();
-        let start = [f64::INFINITY, f64::NEG_INFINITY].map(Vec3::repeat);
-        let [low, high] = positions
-            .iter()
-            .fold(start, |[low, high], x| [low.inf(x), high.sup(x)]);
+        let [low, high] = box_of(positions);
         let own = (high - low).norm();
         if !(SMALL..LARGE).contains(&(own / size)) {
             let (name, body) = (&rigid.name, &body.name);

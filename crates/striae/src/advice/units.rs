@@ -5,7 +5,7 @@
 //! modulus above 2e8 is in pascals or the like, so lengths are in metres. Waves travel at
 //! `sqrt(E/rho)`, in no solid faster than 2e4 m/s = 2e7 mm/s.
 
-use striae_mesh::significant;
+use striae_mesh::{Vec3, significant};
 use striae_model::{Body, BodyId, ContactSurface, LoadKind, Model, RigidId};
 
 use super::{
@@ -37,6 +37,7 @@ pub(super) fn look(model: &Model, advice: &mut Advice) {
         let moduli = moduli(body);
         loads(model, BodyId(index), moduli, advice);
         forces(model, BodyId(index), moduli[0], advice);
+        nodal(model, BodyId(index), moduli[1], advice);
         lengths(body, moduli[1], advice);
         soft(body, moduli, advice);
         for part in Part::all(body) {
@@ -102,6 +103,30 @@ fn forces(model: &Model, body: BodyId, modulus: f64, advice: &mut Advice) {
             format!(
                 "body `{name}`: the largest force that drives the bodies it meets, {largest}, hardly strains a body of size {size} and Young's modulus {modulus} (by about {strain}); are they in one system of units?",
         largest = significant(largest, 4), size = significant(size, 4), modulus = significant(modulus, 4), strain = significant(strain, 2)),
+        );
+    }
+}
+
+/// Forces at nodes beside the largest section that a body can have.
+fn nodal(model: &Model, body: BodyId, stiff: f64, advice: &mut Advice) {
+    let forces = model.steps.iter().flat_map(|step| &step.forces);
+    let forces = forces.filter(|force| force.body == body).map(|force| {
+        let each = [0, 1, 2].map(|axis| force.force[axis].number().unwrap_or(0.0));
+        Vec3::from(each).norm() * force.nodes.len() as f64
+    });
+    let largest = forces.fold(0.0, f64::max);
+    let Body { name, mesh, .. } = &model.bodies[body.0];
+    let [low, high] = extent(mesh);
+    let [x, y, z]: [f64; 3] = (high - low).into();
+    let section = (x * y).max(y * z).max(z * x);
+    let strain = largest / (section * stiff);
+    if strain > 1.0 {
+        advice.warn(
+            Topic::Units,
+            name,
+            format!(
+                "body `{name}`: its largest force at nodes, {largest}, over its largest section, {section}, and its Young's modulus, {stiff}, is a strain of {strain}: it would be crushed or torn; are they in one system of units?",
+        largest = significant(largest, 4), section = significant(section, 4), stiff = significant(stiff, 4), strain = significant(strain, 2)),
         );
     }
 }

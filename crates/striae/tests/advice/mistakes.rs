@@ -190,6 +190,103 @@ fn a_body_that_nothing_holds() {
 }
 
 #[test]
+fn loads_that_pull_a_body_off_or_end_in_any_step() {
+    let with = |later: &str| format!("{LOADED}\n[[step]]\nname = \"later\"\n{later}");
+    let told = |later: &str| read(&[[PRESSED, &with(later)]]).err();
+    let pressure = |value: &str| {
+        format!("pressure = [{{ body = \"pad\", facets = \"zmax\", value = {value} }}]")
+    };
+    let refused = |later: &str, words: &str| {
+        let found = told(later).expect("a fault").to_string();
+        assert!(
+            found.contains("push body `pad` along +z in step `later`"),
+            "{found}"
+        );
+        assert!(found.contains(words), "{found}");
+    };
+    refused(&pressure("-10"), "with a force of 10");
+    refused(&pressure("\"10*(3 - 2*t)\""), "with a force of 10");
+    let gone = "0, curve = \"constant\"";
+    refused(&pressure(gone), "nothing resists this motion");
+    for held in [
+        "displacement = [{ body = \"pad\", nodes = \"zmax\", z = 0.1 }]",
+        "force = [{ body = \"pad\", nodes = \"zmax\", total = [0, 0, -20] }]",
+    ] {
+        let both = format!("{}\n{held}", pressure("-10"));
+        assert!(told(&both).is_none(), "{held}");
+    }
+    assert!(told("").is_none() && told(&pressure("5")).is_none());
+    // What is unloaded is held up to the end.
+    assert!(told(&pressure("0")).is_none());
+    // Held in the first step, and then by nothing.
+    let release = "[[step]]\nname = \"later\"\nrelease = [{ body = \"pad\", nodes = \"zmax\" }]";
+    let alone = refusal(&[[PRESSED, &format!("{PRESSED}\n{release}")]]);
+    assert!(alone.contains("in step `later`"), "{alone}");
+    let loaded = format!("{PRESSED}\n{release}\n{LOADED}");
+    assert!(read(&[[PRESSED, &loaded]]).is_ok());
+}
+
+#[test]
+fn what_neither_stabilisation_nor_inertia_holds() {
+    let stabilised = [COULOMB, &format!("{COULOMB}\nstabilise = true")];
+    let pulled = LOADED.replace("10", "-10");
+    let found = refusal(&[stabilised, [PRESSED, &pulled]]);
+    assert!(found.contains("push body `pad` along +z"), "{found}");
+    assert!(read(&[stabilised, [PRESSED, "increments = 10"]]).is_ok());
+    let dense = ["youngs_modulus = 1e6", "youngs_modulus = 1e6\ndensity = 1"];
+    let driven = |force: &str| {
+        format!(
+            "{PRESSED}\ndynamics = {{}}\nrigid = [{{ surface = \"floor\", free = [\"z\"], force = [0, 0, {force}] }}]"
+        )
+    };
+    let found = refusal(&[dense, [PRESSED, &driven("-1")]]);
+    assert!(
+        found.contains("push rigid body `floor` along -z"),
+        "{found}"
+    );
+    assert!(read(&[dense, [PRESSED, &driven("1")]]).is_ok());
+}
+
+#[test]
+fn bodies_that_hold_each_other_and_that_nothing_holds() {
+    let lower = r#"name = "pad"
+material = "rubber"
+mesh = { generator = "block", origin = [-0.5, -0.5, 0], size = [2, 2, 1], divisions = [4, 4, 2] }
+[[body]]
+name = "upper"
+material = "rubber""#;
+    let above = "origin = [0, 0, 1], size = [1, 1, 1], divisions = [3, 3, 3]";
+    let joint = r#"[[pair]]
+name = "joint"
+a = { body = "upper", facets = "zmin" }
+b = { body = "pad", facets = "zmax" }
+friction = { law = "coulomb", mu = 0.3 }
+
+[[step]]"#;
+    let pressed = PRESSED.replace("pad", "upper");
+    let loose = pressed.replace("x = 0, ", "");
+    let bodies = [
+        ["name = \"pad\"\nmaterial = \"rubber\"", lower],
+        [PAD, above],
+    ];
+    let on_ice = |step: &str| {
+        let smooth = [COULOMB, ""];
+        advice(&[&bodies[..], &[smooth, ["[[step]]", joint], [PRESSED, step]]].concat())
+    };
+    assert_eq!(on_ice(&pressed).warnings, []);
+    let found = on_ice(&loose).warnings;
+    let [warning] = &found[..] else {
+        panic!("{found:?}");
+    };
+    assert_eq!(
+        warning.text,
+        "prescribed nodes leave the bodies `pad`, `upper` together free to move along x, and the contact of `sole` leaves them free along x, as it is frictionless; prescribe these motions"
+    );
+    let rough = advice(&[&bodies[..], &[["[[step]]", joint], [PRESSED, &loose]]].concat());
+    assert_eq!(rough.warnings, []);
+}
+
+#[test]
 fn volumes_that_can_hardly_change_in_standard_hexahedra() {
     let nearly = ["poissons_ratio = 0.3", "poissons_ratio = 0.499"];
     let standard = ["[[rigid]]", "formulation = \"standard\"\n\n[[rigid]]"];
@@ -361,16 +458,66 @@ fn loads_on_prescribed_nodes() {
     );
     let beside = loaded(r#"traction = [{ body = "pad", facets = "xmax", vector = [10, 0, 0] }]"#);
     assert_eq!(advice(&[[PRESSED, &beside]]).warnings, []);
+    for how in ["total", "each"] {
+        let force = |nodes: &str| {
+            loaded(&format!(
+                "force = [{{ body = \"pad\", nodes = \"{nodes}\", {how} = [1, 0, 0] }}]"
+            ))
+        };
+        assert_warned(
+            &[[PRESSED, &force("zmax")]],
+            Topic::Hold,
+            "the force at nodes `zmax` of body `pad` acts on nodes whose displacements along x are all prescribed",
+        );
+        assert_eq!(advice(&[[PRESSED, &force("zmin")]]).warnings, []);
+    }
+}
+
+#[test]
+fn forces_and_slides_out_of_proportion() {
+    let pushed = |force: &str| {
+        format!("force = [{{ body = \"pad\", nodes = \"zmax\", total = [0, 0, {force}] }}]")
+    };
+    assert_warned(
+        &[[PRESSED, &pushed("-2e7")]],
+        Topic::Units,
+        "is a strain of 20: it would be crushed or torn",
+    );
+    assert_eq!(advice(&[[PRESSED, &pushed("-2e4")]]).warnings, []);
+    let slid = |way: &str| PRESSED.replace("x = 0", &format!("x = {way}"));
+    assert_warned(
+        &[[PRESSED, &slid("200")]],
+        Topic::Units,
+        "slides nodes of it by 200 along it, far beyond what it touches",
+    );
+    assert_eq!(advice(&[[PRESSED, &slid("5")]]).warnings, []);
+}
+
+#[test]
+fn a_free_coordinate_with_a_target() {
+    let moved = |way: &str| {
+        format!(
+            "{PRESSED}\nrigid = [{{ surface = \"floor\", free = [\"x\"], displacement = [{way}, 0, 0] }}]"
+        )
+    };
+    let found = refusal(&[[PRESSED, &moved("1")]]);
+    let words = "coordinate `x` of rigid body `floor` is `free`, so it follows the forces and has no target, but its target is 1";
+    assert!(found.contains(words), "{found}");
+    assert!(read(&[[PRESSED, &moved("0")]]).is_ok());
 }
 
 #[test]
 fn a_contact_surface_that_is_prescribed() {
-    let sole = PRESSED.replace("zmax", "zmin");
+    let sole = |way: &str| PRESSED.replace("zmax", "zmin").replace("-0.02", way);
     assert_warned(
-        &[[PRESSED, &sole]],
+        &[[PRESSED, &sole("0")]],
         Topic::Hold,
         "displacements prescribe all nodes of the contact surface of `pad` along its normal",
     );
+    let found = refusal(&[[PRESSED, &sole("-0.02")]]);
+    let words =
+        "displacements move all nodes of its contact surface, up to 0.02 deep into the rigid plane";
+    assert!(found.contains(words), "{found}");
 }
 
 #[test]
@@ -380,6 +527,19 @@ fn a_displacement_of_the_wrong_sign() {
         Topic::NeverMeets,
         "moves `pad` and `floor` apart by 0.02",
     );
+    // Loads that hardly strain the pad leave them apart.
+    let lifted = |load: &str| {
+        let lifted = PRESSED.replace("-0.02", "0.02");
+        format!("{lifted}\nforce = [{{ body = \"pad\", nodes = \"zmin\", total = {load} }}]")
+    };
+    for load in ["[100, 0, 0]", "[0, 0, -100]"] {
+        assert_warned(
+            &[[PRESSED, &lifted(load)]],
+            Topic::NeverMeets,
+            "moves `pad` and `floor` apart by 0.02",
+        );
+    }
+    assert_eq!(advice(&[[PRESSED, &lifted("[0, 0, -4e4]")]]).warnings, []);
 }
 
 #[test]
@@ -432,6 +592,41 @@ fn contact_that_spreads_onto_facets_outside_its_pair() {
         Topic::Fit,
         "contact with `floor` spreads that far, and the surface of `pad` continues smoothly beyond the facets of the pair, as at (0.5, 0, 0)",
     );
+}
+
+#[test]
+fn contact_of_a_patch_that_spreads_over_another_body() {
+    let ring = r#"name = "ring"
+material = "rubber"
+mesh = { generator = "annulus", centre = [0.5, 0.5, 6], inner_radius = 3, outer_radius = 5, width = 0.5, divisions = [2, 64, 2] }
+facet_sets = [{ name = "patch", of = "tread", from = [-0.4, -2, 0.9], to = [1.4, 3, 2] }]
+[[body]]
+name = "pad"
+material = "rubber""#;
+    let pressed = |way: &str| {
+        format!(
+            "displacement = [{{ body = \"pad\", nodes = \"zmin\", x = 0, y = 0, z = 0 }}, {{ body = \"ring\", nodes = \"rim\", x = 0, y = 0, z = {way} }}]"
+        )
+    };
+    let warns = |way: &str| {
+        let found = advice(&[
+            ["name = \"pad\"\nmaterial = \"rubber\"", ring],
+            [
+                PAD,
+                "origin = [-2, -1, 0], size = [5, 3, 1], divisions = [10, 4, 2]",
+            ],
+            [
+                r#"a = { body = "pad", facets = "zmin" }"#,
+                r#"a = { body = "ring", facets = "patch" }"#,
+            ],
+            [FLOOR, r#"b = { body = "pad", facets = "zmax" }"#],
+            [PRESSED, &pressed(way)],
+        ]);
+        let mut warnings = found.warnings.iter();
+        warnings.any(|warning| warning.text.contains("contact with `pad` spreads that far"))
+    };
+    assert!(warns("-0.5"));
+    assert!(!warns("-0.01"));
 }
 
 #[test]

@@ -4,7 +4,9 @@
 use std::collections::BTreeSet;
 
 use striae_mesh::{Face, Mesh, NodeId};
-use striae_model::{BodyId, ContactSurface, Freedom, Load, LoadKind, Model, Pair, Step};
+use striae_model::{
+    BodyId, ContactSurface, Freedom, Load, LoadKind, Model, NodalForce, Pair, Step, Value,
+};
 
 use super::super::{Advice, Topic};
 
@@ -35,6 +37,9 @@ pub(in crate::advice) fn look(model: &Model, advice: &mut Advice) {
         }
         for load in &step.loads {
             idle(model, step, load, &prescribed, advice);
+        }
+        for force in &step.forces {
+            idle_force(model, step, force, &prescribed, advice);
         }
         for (index, pair) in model.pairs.iter().enumerate() {
             let is_told = advice.warns_of(&pair.name, &[Topic::NeverMeets, Topic::Facing]);
@@ -93,15 +98,37 @@ fn idle(model: &Model, step: &Step, load: &Load, prescribed: &Prescribed, advice
         LoadKind::Pressure(_) => "pressure",
         LoadKind::DeadTraction(_) | LoadKind::FollowerTraction(_) => "traction",
     };
-    let along: Vec<&str> = acting.iter().map(|axis| AXES[*axis]).collect();
+    let what = format!("the {kind} on facets `{}`", load.set);
+    idle_text(&body.name, step, &what, &acting, advice);
+}
+
+/// Warns of a force all of which acts on prescribed components.
+fn idle_force(
+    model: &Model,
+    step: &Step,
+    force: &NodalForce,
+    prescribed: &Prescribed,
+    advice: &mut Advice,
+) {
+    let of_body = &prescribed[force.body.0];
+    let acts = |axis: &usize| force.force[*axis] != Value::Number(0.0);
+    let acting: BTreeSet<usize> = (0..3).filter(acts).collect();
+    let held = |node: &NodeId| acting.iter().all(|axis| of_body.contains(&(*node, *axis)));
+    if !acting.is_empty() && force.nodes.iter().all(held) {
+        let what = format!("the force at nodes `{}`", force.set);
+        let name = &model.bodies[force.body.0].name;
+        idle_text(name, step, &what, &acting, advice);
+    }
+}
+
+fn idle_text(body: &str, step: &Step, what: &str, axes: &BTreeSet<usize>, advice: &mut Advice) {
+    let along: Vec<&str> = axes.iter().map(|axis| AXES[*axis]).collect();
     let text = format!(
-        "step `{}`: the {kind} on facets `{}` of body `{}` acts on nodes whose displacements along {} are all prescribed, so it only changes reactions; release these nodes, or remove the load",
+        "step `{}`: {what} of body `{body}` acts on nodes whose displacements along {} are all prescribed, so it only changes reactions; release these nodes, or remove the load",
         step.name,
-        load.set,
-        body.name,
         along.join(" and ")
     );
-    advice.warn(Topic::Hold, &body.name, text);
+    advice.warn(Topic::Hold, body, text);
 }
 
 /// True where a rigid surface that nothing but the deck moves meets nodes that are all
