@@ -88,7 +88,9 @@ pub(super) struct Body {
     /// Material of all of it, or sections.
     pub(super) material: String,
     /// More sets of nodes by number.
-    node_sets: Vec<(String, NodeId)>,
+    node_sets: Vec<(String, Vec<NodeId>)>,
+    /// More sets of elements by number.
+    element_sets: Vec<(String, Vec<ElementId>)>,
     /// More sets of facets.
     facet_sets: Vec<(String, Facets)>,
     /// Nodes and elements by their numbers in the file, in capitals.
@@ -121,6 +123,7 @@ impl Body {
             reading,
             material: String::new(),
             node_sets: Vec::new(),
+            element_sets: Vec::new(),
             facet_sets: Vec::new(),
             nodes_by_number,
             elements_by_number,
@@ -137,11 +140,21 @@ impl Body {
             self.material,
             text(written)
         );
-        let sets = self.node_sets.iter();
-        let sets =
-            sets.map(|(name, node)| format!("{{ name = {}, numbers = [{}] }}", text(name), node.0));
-        if !self.node_sets.is_empty() {
-            table += &format!("node_sets = {}\n", list(sets));
+        let nodes = self.node_sets.iter().map(|(name, nodes)| {
+            let numbers = nodes.iter().map(|node| node.0.to_string());
+            of_numbers(name, list(numbers))
+        });
+        let elements = self.element_sets.iter().map(|(name, elements)| {
+            let numbers = elements.iter().map(|element| element.0.to_string());
+            of_numbers(name, list(numbers))
+        });
+        for (key, sets) in [
+            ("node_sets", nodes.collect::<Vec<_>>()),
+            ("element_sets", elements.collect()),
+        ] {
+            if !sets.is_empty() {
+                table += &format!("{key} = {}\n", list(sets));
+            }
         }
         let sets = self.facet_sets.iter();
         let sets = sets.map(|(name, of)| match of {
@@ -163,16 +176,46 @@ impl Body {
         if let Some(name) = spelled(&self.reading.mesh.node_sets, word) {
             return Some(name);
         }
+        let node = self.node(word)?;
+        Some(self.set_of_nodes(format!("node {word}"), vec![node]))
+    }
+
+    /// Its node of a number of the file.
+    pub(super) fn node(&self, word: &str) -> Option<NodeId> {
         let bare = word.rsplit('.').next().unwrap_or(word);
         bare.parse::<u64>().ok()?;
         let by_number = &self.nodes_by_number;
         let node = by_number.get(&word.to_uppercase());
-        let node = *node.or_else(|| by_number.get(bare))?;
-        let name = format!("node {word}");
-        if self.node_sets.iter().all(|(known, _)| *known != name) {
-            self.node_sets.push((name.clone(), node));
+        node.or_else(|| by_number.get(bare)).copied()
+    }
+
+    /// A set of nodes of a name, new if there is none like it.
+    pub(super) fn set_of_nodes(&mut self, name: String, nodes: Vec<NodeId>) -> String {
+        let is_taken = |name: &str| {
+            let mut own = self.node_sets.iter();
+            let is_own = own.any(|(known, of)| known == name && *of != nodes);
+            is_own || self.reading.mesh.node_sets.get(name).is_some()
+        };
+        let mut name = name;
+        while is_taken(&name) {
+            name += "'";
         }
-        Some(name)
+        if self.node_sets.iter().all(|(known, _)| *known != name) {
+            self.node_sets.push((name.clone(), nodes));
+        }
+        name
+    }
+
+    /// A new set of elements.
+    pub(super) fn set_of_elements(&mut self, name: String, elements: Vec<ElementId>) -> String {
+        let mut name = name;
+        while self.reading.mesh.element_sets.get(&name).is_some()
+            || self.element_sets.iter().any(|(known, _)| *known == name)
+        {
+            name += "'";
+        }
+        self.element_sets.push((name.clone(), elements));
+        name
     }
 
     /// Its facet set that a word of the file stands for; of a set of nodes the facets with all
@@ -221,8 +264,9 @@ impl Body {
         if let Some(nodes) = self.reading.mesh.node_sets.get(set) {
             return nodes.to_vec();
         }
-        let own = self.node_sets.iter().filter(|(name, _)| name == set);
-        own.map(|(_, node)| *node).collect()
+        let mut own = self.node_sets.iter();
+        let found = own.find(|(name, _)| name == set);
+        found.map_or_else(Vec::new, |(_, nodes)| nodes.clone())
     }
 
     /// Returns whether all its elements are in the set that a word stands for.
@@ -230,6 +274,11 @@ impl Body {
         let all = self.reading.mesh.element_count();
         self.name.eq_ignore_ascii_case(word) || self.elements_of(word).len() == all
     }
+}
+
+/// A set of the deck by the numbers of its members.
+fn of_numbers(name: &str, numbers: String) -> String {
+    format!("{{ name = {}, numbers = {numbers} }}", text(name))
 }
 
 /// The name of the set that a word stands for; the name of an instance before it counts where

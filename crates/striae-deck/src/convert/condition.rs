@@ -3,8 +3,10 @@
 use super::amplitude::{Over, Period};
 use super::stated::{History, Prescribed, Stated, Target};
 use super::{Model, has, numbers};
-use crate::write::value::{list, number};
+use crate::write::value::{list, vector};
+use striae_mesh::{NodeId, Vec3};
 use striae_meshfile::{Keyword, Row};
+use striae_solve::model::Axes;
 
 /// Components that a word such as `PINNED` holds.
 fn named(word: &str) -> Option<Vec<usize>> {
@@ -73,20 +75,24 @@ impl<'a> Model<'a> {
                 self.list(row.line, what);
             }
             for (target, first) in targets {
-                let axes = match &target {
-                    Target::Nodes(body, set) => self.axes(row.line, *body, set),
-                    Target::Rigid(_) => None,
-                };
                 let is_solid = matches!(target, Target::Nodes(..));
-                if let (Target::Nodes(body, set), Some(axes)) = (&target, axes) {
-                    stated_so_far.axes.insert((*body, set.clone()), axes);
-                }
+                let across = match &target {
+                    Target::Nodes(body, set) => {
+                        self.target_across(row, *body, set, &held, stated_so_far)
+                    }
+                    Target::Rigid(_) => Some(target.clone()),
+                };
                 if is_solid && held.iter().all(|component| *component > 2) {
                     self.list(row.line, format!("*BOUNDARY: rotations of `{word}`"));
                 }
                 let limit = if is_solid { 3 } else { 6 };
                 for component in held.iter().map(|at| at + first).filter(|at| *at < limit) {
-                    let key = (target.clone(), component);
+                    let target = match component {
+                        0 | 1 => across.clone(),
+                        _ => Some(target.clone()),
+                    };
+                    let Some(target) = target else { continue };
+                    let key = (target, component);
                     let present = history.prescribed.get(&key).copied().unwrap_or(0.0);
                     let amplitude = keyword.parameter("AMPLITUDE");
                     let found = match is_velocity {
@@ -110,8 +116,58 @@ impl<'a> Model<'a> {
         }
     }
 
+    /// Target of the first two components of a row, and the axes of all: nodes on the axis of a
+    /// cylinder have neither a radial nor a tangential direction and are left out; `None` where
+    /// all are.
+    fn target_across(
+        &mut self,
+        row: &Row<'_>,
+        body: usize,
+        set: &str,
+        held: &[usize],
+        stated: &mut Stated,
+    ) -> Option<Target> {
+        let whole = Target::Nodes(body, set.to_owned());
+        let Some(axes) = self.axes(row.line, body, set) else {
+            return Some(whole);
+        };
+        let told = axes_text(&axes);
+        stated.axes.insert((body, set.to_owned()), told.clone());
+        let of = &mut self.bodies[body];
+        let is_on_axis = |node: &NodeId| {
+            let [radial, ..] = axes.directions(&of.reading.mesh.positions[node.index()]);
+            radial.is_none()
+        };
+        let (on, off): (Vec<NodeId>, Vec<NodeId>) = of.nodes(set).into_iter().partition(is_on_axis);
+        if on.is_empty() || held.iter().all(|component| *component > 1) {
+            return Some(whole);
+        }
+        let numbers: Vec<String> = on
+            .iter()
+            .map(|node| of.reading.numbers.node(*node))
+            .collect();
+        let target = (!off.is_empty()).then(|| {
+            let set = of.set_of_nodes(format!("{set} off the axis"), off);
+            stated.axes.insert((body, set.clone()), told);
+            Target::Nodes(body, set)
+        });
+        let what = format!(
+            "*BOUNDARY of `{}`: node {} is on the axis of the *TRANSFORM, where components 1 and 2 have no direction; left out",
+            row.words[0],
+            numbers.join(", ")
+        );
+        let what = match numbers.len() {
+            1 => what,
+            _ => what
+                .replacen(": node ", ": nodes ", 1)
+                .replacen(" is on", " are on", 1),
+        };
+        self.list(row.line, what);
+        target
+    }
+
     /// Axes of the nodes of a set by `*TRANSFORM`, whatever set that names.
-    pub(super) fn axes(&mut self, line: usize, body: usize, set: &str) -> Option<String> {
+    pub(super) fn axes(&mut self, line: usize, body: usize, set: &str) -> Option<Axes> {
         let keywords = self.keywords.iter();
         let transforms = keywords.filter(|keyword| keyword.name == "TRANSFORM");
         for keyword in transforms.rev() {
@@ -156,21 +212,29 @@ impl<'a> Model<'a> {
 }
 
 /// The axes that a `*TRANSFORM` states.
-fn transform(keyword: &Keyword<'_>) -> Option<String> {
+fn transform(keyword: &Keyword<'_>) -> Option<Axes> {
     let all = numbers(&keyword.rows.first()?.words)?;
     let (a, b) = all.get(..6)?.split_at(3);
-    let told = |vector: &[f64]| list(vector.iter().map(|x| number(*x)));
+    let (a, b) = (Vec3::from_column_slice(a), Vec3::from_column_slice(b));
     let kind = keyword.parameter("TYPE").unwrap_or("R").to_uppercase();
     match kind.as_str() {
-        "R" => Some(list([a, b].map(told))),
-        "C" => {
-            let along: Vec<f64> = a.iter().zip(b).map(|(a, b)| b - a).collect();
-            Some(format!(
-                "{{ point = {}, axis = {} }}",
-                told(a),
-                told(&along)
-            ))
-        }
+        "R" => Some(Axes::Skew { x: a, y: b }),
+        "C" => Some(Axes::Cylindrical {
+            point: a,
+            axis: b - a,
+        }),
         _ => None,
+    }
+}
+
+/// Axes as a deck states them; empty for those of the coordinates.
+fn axes_text(axes: &Axes) -> String {
+    match axes {
+        Axes::Global => String::new(),
+        Axes::Normal(normal) => format!("{{ normal = {} }}", vector(normal)),
+        Axes::Skew { x, y } => list([x, y].map(vector)),
+        Axes::Cylindrical { point, axis } => {
+            format!("{{ point = {}, axis = {} }}", vector(point), vector(axis))
+        }
     }
 }

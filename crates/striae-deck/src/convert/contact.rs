@@ -68,6 +68,7 @@ impl<'a> Model<'a> {
     fn behaviour(&mut self, keyword: &Keyword<'_>) {
         self.used.insert(keyword.line);
         let pressure = keyword.parameter("PRESSURE-OVERCLOSURE").unwrap_or("HARD");
+        self.penalty(keyword);
         if !["HARD", "TIED"].contains(&pressure.to_uppercase().as_str()) {
             let what = format!(
                 "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE={pressure}: contact is hard, its numbers are left out"
@@ -84,6 +85,27 @@ impl<'a> Model<'a> {
                 "AUGMENTED LAGRANGE",
             ],
         );
+    }
+
+    /// Lists the numbers of a penalty: stiffness, clearance without pressure and scale.
+    fn penalty(&mut self, keyword: &Keyword<'_>) {
+        let mut methods = ["PENALTY", "AUGMENTED LAGRANGE"].into_iter();
+        let method = methods.find(|method| keyword.parameter(method).is_some());
+        let (Some(method), Some(row)) = (method, keyword.rows.first()) else {
+            return;
+        };
+        let stated = |at: usize, default: &str| {
+            let word = row.words.get(at).copied().unwrap_or_default();
+            let value = striae_meshfile::finite(word);
+            !word.is_empty() && value != striae_meshfile::finite(default)
+        };
+        if stated(0, "0") || stated(1, "0") || stated(2, "1") {
+            let what = format!(
+                "*SURFACE BEHAVIOR, {method} of `{}`: contact is exact, without a stiffness and from a gap of 0 on; its numbers are left out",
+                row.words.join(", ")
+            );
+            self.list(keyword.line, what);
+        }
     }
 
     fn pairs(&mut self, keyword: &'a Keyword<'a>) {
@@ -182,8 +204,14 @@ impl<'a> Model<'a> {
             "POSITION TOLERANCE",
             "NO ROTATION",
             "CONSTRAINT RATIO",
+            "CYCLIC SYMMETRY",
         ];
         self.list_parameters(keyword, &known);
+        if keyword.parameter("CYCLIC SYMMETRY").is_some() {
+            let what = "*TIE, CYCLIC SYMMETRY: both surfaces are those of one sector; model all of it, or hold its cuts in the axes of a cylinder";
+            self.list(keyword.line, what);
+            return;
+        }
         let within = keyword.parameter("POSITION TOLERANCE");
         let within = within.and_then(striae_meshfile::finite);
         for row in &keyword.rows {
@@ -281,7 +309,13 @@ impl<'a> Model<'a> {
             return format!("the nodes of `{word}` make up no facet; name elements and faces");
         }
         if !kind.eq_ignore_ascii_case("ELEMENT") {
-            return format!("`{word}` is an analytical surface of no rigid body");
+            let is_its = |keyword: &&&Keyword<'_>| has(keyword, "NAME", word);
+            let instances = self.instances.iter();
+            let stating = instances.filter(|of| of.own.iter().any(|own| is_its(&own)));
+            return match stating.count() {
+                0 | 1 => format!("`{word}` is an analytical surface of no rigid body"),
+                _ => format!("several instances have a surface `{word}`; write `INSTANCE.{word}`"),
+            };
         }
         let kinds: BTreeSet<String> = self.kinds_of_surface(surface);
         match kinds.is_empty() {

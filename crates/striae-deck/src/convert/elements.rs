@@ -1,4 +1,4 @@
-//! Elements that are no solids.
+//! Elements that are no solids of a body.
 
 use super::Model;
 use std::collections::BTreeSet;
@@ -22,8 +22,17 @@ impl Model<'_> {
             let is_other = keyword.name == "ELEMENT"
                 && !kind.starts_with("C3D")
                 && !SURFACES.iter().any(|start| kind.starts_with(start));
-            if is_other && !of_others.contains(&keyword.line) {
-                let what = format!("*ELEMENT, TYPE={kind}: only solids are elements of a body");
+            let is_listed = of_others.contains(&keyword.line) || self.used.contains(&keyword.line);
+            if is_other && !is_listed {
+                let count = keyword.joined_rows(usize::MAX).len();
+                let are = if count == 1 {
+                    "element is"
+                } else {
+                    "elements are"
+                };
+                let what = format!(
+                    "*ELEMENT, TYPE={kind}: {count} {are} left out; only C3D4 to C3D27 are elements of a body"
+                );
                 self.list(keyword.line, what);
             }
         }

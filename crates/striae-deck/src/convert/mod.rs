@@ -23,6 +23,7 @@ mod profile;
 mod remedy;
 mod rigid;
 mod slip_direction;
+mod springs;
 mod stated;
 mod step;
 
@@ -52,6 +53,7 @@ pub fn convert(path: &Path, written: &str) -> Result<Converted, MeshFileError> {
     model.read_loaded_faces();
     model.read_rigid();
     model.read_contact();
+    model.read_springs();
     model.read_steps();
     model.read_output();
     model.list_idle_amplitudes();
@@ -72,6 +74,8 @@ struct Model<'a> {
     /// Tables of pairs and ties.
     contact: String,
     pairs: Vec<contact::Pair>,
+    /// Tables of springs and dashpots.
+    springs: String,
     loaded_faces: faces::LoadedFaces,
     curves: Vec<(String, amplitude::Curve)>,
     /// Tables of steps.
@@ -102,6 +106,7 @@ impl<'a> Model<'a> {
             rigid: Vec::new(),
             contact: String::new(),
             pairs: Vec::new(),
+            springs: String::new(),
             loaded_faces: faces::LoadedFaces::default(),
             curves: Vec::new(),
             steps: String::new(),
@@ -167,6 +172,7 @@ impl<'a> Model<'a> {
             .map(|rigid| rigid.table(written, &self.bodies))
             .collect::<String>();
         deck += &self.contact;
+        deck += &self.springs;
         deck += &amplitude::tables(&self.curves);
         deck += &self.steps;
         deck += &output;

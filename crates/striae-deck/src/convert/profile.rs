@@ -5,7 +5,7 @@
 //! are divided every five degrees. Their free side is that of the bodies nearby. Source:
 //! Abaqus keywords reference guide, `*SURFACE`.
 
-use super::rigid::Shape;
+use super::rigid::{Rigid, Shape};
 use super::{Model, has, numbers};
 use std::collections::HashMap;
 use std::f64::consts::TAU;
@@ -19,27 +19,99 @@ const NEAR: f64 = 0.02;
 /// Facets along a generator.
 const ALONG: usize = 12;
 
-impl Model<'_> {
-    /// The shape of an analytical surface, and the line that states it.
-    pub(super) fn analytical(&self, surface: &str) -> Result<(Shape, usize), String> {
+/// An analytical surface where it is stated.
+struct Stated<'a> {
+    /// The keyword of its instance and the name of this.
+    instance: &'a Keyword<'a>,
+    name: &'a str,
+    keyword: &'a Keyword<'a>,
+    /// `true` if no other instance has a surface of this name.
+    is_alone: bool,
+}
+
+impl<'a> Model<'a> {
+    /// Makes a rigid body of an analytical surface; `owner` is the instance by place that states it.
+    pub(super) fn analytical_body(
+        &mut self,
+        keyword: &Keyword<'_>,
+        surface: &str,
+        owner: Option<usize>,
+    ) {
+        let reference = keyword.parameter("REF NODE");
+        let reference = reference.and_then(|word| self.point_of(keyword, word, owner));
+        let found = self.analytical(surface, owner);
+        let made = found.and_then(|of| Ok((self.shape(&of)?, of)));
+        let (shape, of) = match made {
+            Ok(made) => made,
+            Err(what) => {
+                self.list(keyword.line, format!("*RIGID BODY `{surface}`: {what}"));
+                return;
+            }
+        };
+        let (line, instance) = (of.keyword.line, of.name);
+        let bare = of.keyword.parameter("NAME").unwrap_or_default();
+        let mut names = vec![format!("{instance}.{bare}")];
+        names.extend(of.is_alone.then(|| bare.to_owned()));
+        let mut rigid = Rigid::new(keyword.line, self.rigid_name(instance), shape, reference);
+        rigid.surfaces = names.into_iter().map(|name| name.to_uppercase()).collect();
+        if let Shape::Facets(_, facets) = &rigid.shape {
+            let count = facets.len();
+            let what = format!("analytical surface `{surface}` is made of {count} facets");
+            self.list(line, what);
+        }
+        self.rigid.push(rigid);
+        let stated = self.keywords.iter().find(|keyword| keyword.line == line);
+        if let Some(stated) = stated.filter(|_| self.used.insert(line)) {
+            self.list_parameters(stated, &["NAME", "TYPE", "INTERNAL"]);
+        }
+    }
+
+    /// The statement of an analytical surface: in the instance that its name begins with, in the
+    /// owner, or in the only instance that has one of this name.
+    fn analytical(&self, surface: &str, owner: Option<usize>) -> Result<Stated<'a>, String> {
         let (prefix, bare) = surface.rsplit_once('.').unwrap_or(("", surface));
-        let named =
-            |keyword: &&&Keyword<'_>| keyword.name == "SURFACE" && has(keyword, "NAME", bare);
-        let mut instances = self.instances.iter();
-        let instance = instances.find(|instance| match prefix {
-            "" => instance.own.iter().any(|keyword| named(&keyword)),
+        let of_mesh = |kind: &str| ["ELEMENT", "NODE"].contains(&kind.to_uppercase().as_str());
+        let named = |keyword: &&&Keyword<'_>| {
+            let kind = keyword.parameter("TYPE").unwrap_or("ELEMENT");
+            keyword.name == "SURFACE" && has(keyword, "NAME", bare) && !of_mesh(kind)
+        };
+        let all = self.instances.iter().enumerate();
+        let stated = all.filter_map(|(at, instance)| {
+            let keyword = instance.own.iter().find(named)?;
+            Some((at, instance, *keyword))
+        });
+        let stated: Vec<_> = stated.collect();
+        let is_alone = stated.len() == 1;
+        let chosen = stated.into_iter().filter(|(at, instance, _)| match prefix {
+            "" => owner.is_none_or(|owner| owner == *at),
             _ => instance.name.eq_ignore_ascii_case(prefix),
         });
-        let instance =
-            instance.ok_or("an analytical surface outside of an instance; mesh it with R3D4")?;
-        let keyword = instance
-            .own
-            .iter()
-            .find(named)
-            .ok_or("there is no such *SURFACE")?;
+        let chosen: Vec<_> = chosen.collect();
+        match chosen[..] {
+            [(_, instance, keyword)] => Ok(Stated {
+                instance: instance.keyword,
+                name: instance.name,
+                keyword,
+                is_alone,
+            }),
+            [] if prefix.is_empty() => {
+                Err("an analytical surface outside of an instance; mesh it with R3D4".to_owned())
+            }
+            [] => Err("there is no such *SURFACE in an instance of this name".to_owned()),
+            _ => Err(format!(
+                "several instances have it; write `INSTANCE.{bare}`"
+            )),
+        }
+    }
+
+    /// The shape of an analytical surface.
+    fn shape(&self, stated: &Stated<'_>) -> Result<Shape, String> {
+        let Stated {
+            instance, keyword, ..
+        } = stated;
         let kind = keyword.parameter("TYPE").unwrap_or_default().to_uppercase();
         let profile = profile(keyword)?;
-        let placed = |x: Vec3| instance.keyword.placed(x).ok_or("no numbers");
+        let placed = |x: Vec3| instance.placed(x).ok_or("no numbers");
         let origin = placed(Vec3::zeros())?;
         let x = placed(Vec3::x())? - origin;
         let y = placed(Vec3::y())? - origin;
@@ -90,7 +162,7 @@ impl Model<'_> {
             ("SEGMENTS", _) => return Err("TYPE=SEGMENTS is for models of a plane".to_owned()),
             _ => return Err(format!("TYPE={kind}; mesh it with R3D4")),
         };
-        Ok((shape, keyword.line))
+        Ok(shape)
     }
 
     /// Facets between points of a profile in several places, around an axis or not.

@@ -26,6 +26,9 @@ pub(super) fn remedy(keyword: &str) -> &'static str {
             ": materials do not change; run on with another deck"
         }
         "SPRING" | "DASHPOT" | "CONNECTOR SECTION" => ": state a `[[spring]]`",
+        "FOUNDATION" => {
+            ": state a `[[spring]]` with a `direction` at the nodes of the faces; its `stiffness` is that of one node, the foundation's times the area of the node"
+        }
         "MASS" | "ROTARY INERTIA" => ": state `mass` and `inertia` of a rigid body",
         "SHELL SECTION"
         | "MEMBRANE SECTION"

@@ -13,7 +13,7 @@ pub(super) struct Rigid {
     pub(super) name: String,
     /// Line of its keyword.
     line: usize,
-    shape: Shape,
+    pub(super) shape: Shape,
     /// The node that its conditions name.
     pub(super) reference: Option<Point>,
     /// The node whose displacements are its rotations, as CalculiX has it.
@@ -21,7 +21,7 @@ pub(super) struct Rigid {
     /// The instance whose surfaces it has.
     instance: Option<String>,
     /// Surfaces that are on it, in capitals.
-    surfaces: BTreeSet<String>,
+    pub(super) surfaces: BTreeSet<String>,
     /// Components with a condition so far.
     pub(super) held: [bool; 6],
     /// Targets so far; angles in radians.
@@ -206,74 +206,24 @@ impl<'a> Model<'a> {
             "ROT NODE",
         ];
         self.list_parameters(keyword, &known);
-        let reference = keyword
-            .parameter("REF NODE")
-            .and_then(|word| self.point(keyword, word));
-        let name = self.rigid_name("rigid");
         if let Some(surface) = keyword.parameter("ANALYTICAL SURFACE") {
-            match self.analytical(surface) {
-                Ok((shape, line)) => {
-                    if let Shape::Facets(_, facets) = &shape {
-                        let count = facets.len();
-                        let what =
-                            format!("analytical surface `{surface}` is made of {count} facets");
-                        self.list(line, what);
-                    }
-                    let mut rigid = Rigid::new(keyword.line, name, shape, reference);
-                    rigid.surfaces.insert(surface.to_uppercase());
-                    self.used.insert(line);
-                    let keywords = self.keywords;
-                    let stated = keywords.iter().find(|keyword| keyword.line == line);
-                    if let Some(stated) = stated {
-                        self.list_parameters(stated, &["NAME", "TYPE", "INTERNAL"]);
-                    }
-                    self.rigid.push(rigid);
-                }
-                Err(what) => self.list(keyword.line, format!("*RIGID BODY `{surface}`: {what}")),
+            // Each instance of a part has what the part states.
+            let owners = self.owners(keyword);
+            match owners.is_empty() {
+                true => self.analytical_body(keyword, surface, None),
+                false => owners
+                    .into_iter()
+                    .for_each(|owner| self.analytical_body(keyword, surface, Some(owner))),
             }
             return;
         }
         if let Some(set) = keyword.parameter("ELSET") {
-            if let Some(at) = self.rigid_instance(keyword, set) {
-                let instance = self.instances[at].name.to_owned();
-                let several = self.instances.len() > 1;
-                let shape = Shape::Mesh(several.then(|| instance.clone()));
-                let mut rigid = Rigid::new(keyword.line, instance.clone(), shape, reference);
-                rigid.surfaces = self.surfaces_of(&instance);
-                rigid.instance = Some(instance);
-                self.rigid.push(rigid);
-                return;
-            }
-            let bodies = self.bodies.iter().enumerate();
-            let whole = bodies.filter(|(_, body)| {
-                let sets = body.reading.mesh.element_sets.iter();
-                let mut sets = sets.filter(|(_, of)| of.len() == body.reading.mesh.element_count());
-                let bare = set.rsplit('.').next().unwrap_or(set);
-                sets.any(|(name, _)| {
-                    name.eq_ignore_ascii_case(set) || name.eq_ignore_ascii_case(bare)
-                })
-            });
-            let tied: Vec<(usize, String)> = whole.map(|(at, _)| (at, "all".to_owned())).collect();
-            match (self.instances.is_empty(), tied.is_empty()) {
-                (_, false) => {
-                    self.rigid
-                        .push(Rigid::new(keyword.line, name, Shape::Tied(tied), reference))
-                }
-                (true, true) => {
-                    let shape = Shape::Mesh(Some(set.to_owned()));
-                    let mut rigid = Rigid::new(keyword.line, set.to_owned(), shape, reference);
-                    rigid.surfaces = self.surfaces_of_set(set);
-                    self.rigid.push(rigid);
-                }
-                (false, true) => {
-                    self.list(
-                        keyword.line,
-                        format!("*RIGID BODY of `{set}`, which is not a whole body"),
-                    );
-                }
-            }
-            return;
+            return self.rigid_elements(keyword, set);
         }
+        let reference = keyword
+            .parameter("REF NODE")
+            .and_then(|word| self.point(keyword, word));
+        let name = self.rigid_name("rigid");
         let sets = ["TIE NSET", "PIN NSET", "NSET"].into_iter();
         let sets: Vec<&str> = sets.filter_map(|key| keyword.parameter(key)).collect();
         let tied: Vec<(usize, String)> = sets.iter().flat_map(|set| self.nodes(set)).collect();
@@ -288,12 +238,62 @@ impl<'a> Model<'a> {
         }
     }
 
-    pub(super) fn point(&mut self, keyword: &Keyword<'_>, word: &str) -> Option<Point> {
-        let own = self.instances.iter().find(|instance| {
-            let mut own = instance.own.iter();
-            own.any(|own| own.line == keyword.line)
+    /// Makes a rigid body of a set of rigid elements, or of a whole body of solids.
+    fn rigid_elements(&mut self, keyword: &'a Keyword<'a>, set: &str) {
+        let reference = keyword
+            .parameter("REF NODE")
+            .and_then(|word| self.point(keyword, word));
+        if let Some(at) = self.rigid_instance(keyword, set) {
+            let instance = self.instances[at].name.to_owned();
+            let several = self.instances.len() > 1;
+            let shape = Shape::Mesh(several.then(|| instance.clone()));
+            let mut rigid = Rigid::new(keyword.line, instance.clone(), shape, reference);
+            rigid.surfaces = self.surfaces_of(&instance);
+            rigid.instance = Some(instance);
+            self.rigid.push(rigid);
+            return;
+        }
+        let bodies = self.bodies.iter().enumerate();
+        let whole = bodies.filter(|(_, body)| {
+            let sets = body.reading.mesh.element_sets.iter();
+            let mut sets = sets.filter(|(_, of)| of.len() == body.reading.mesh.element_count());
+            let bare = set.rsplit('.').next().unwrap_or(set);
+            sets.any(|(name, _)| name.eq_ignore_ascii_case(set) || name.eq_ignore_ascii_case(bare))
         });
-        let within = own.map(|instance| format!("{}.{word}", instance.name));
+        let tied: Vec<(usize, String)> = whole.map(|(at, _)| (at, "all".to_owned())).collect();
+        match (self.instances.is_empty(), tied.is_empty()) {
+            (_, false) => {
+                let name = self.rigid_name("rigid");
+                let shape = Shape::Tied(tied);
+                self.rigid
+                    .push(Rigid::new(keyword.line, name, shape, reference));
+            }
+            (true, true) => {
+                let shape = Shape::Mesh(Some(set.to_owned()));
+                let mut rigid = Rigid::new(keyword.line, set.to_owned(), shape, reference);
+                rigid.surfaces = self.surfaces_of_set(set);
+                self.rigid.push(rigid);
+            }
+            (false, true) => {
+                let what = format!("*RIGID BODY of `{set}`, which is not a whole body");
+                self.list(keyword.line, what);
+            }
+        }
+    }
+
+    pub(super) fn point(&mut self, keyword: &Keyword<'_>, word: &str) -> Option<Point> {
+        let owner = self.owners(keyword).first().copied();
+        self.point_of(keyword, word, owner)
+    }
+
+    /// The point that a word of a keyword stands for, in an instance by place or outside of all.
+    pub(super) fn point_of(
+        &mut self,
+        keyword: &Keyword<'_>,
+        word: &str,
+        owner: Option<usize>,
+    ) -> Option<Point> {
+        let within = owner.map(|at| format!("{}.{word}", self.instances[at].name));
         let found = within.and_then(|word| self.points.find(&word));
         let found = found.or_else(|| self.points.find(word));
         if found.is_none() {
@@ -305,12 +305,26 @@ impl<'a> Model<'a> {
         found
     }
 
+    /// Instances by place in which a keyword stands, itself or by their part.
+    pub(super) fn owners(&self, keyword: &Keyword<'_>) -> Vec<usize> {
+        let all = self.instances.iter().enumerate();
+        let owning = all.filter(|(_, instance)| {
+            let mut own = instance.own.iter();
+            own.any(|own| own.line == keyword.line)
+        });
+        owning.map(|(at, _)| at).collect()
+    }
+
     pub(super) fn rigid_name(&self, base: &str) -> String {
         let names = (1..).map(|count| match count {
             1 => base.to_owned(),
             _ => format!("{base}-{count}"),
         });
-        let is_free = |name: &String| self.rigid.iter().all(|rigid| rigid.name != *name);
+        let bodies = self.bodies.iter().map(|body| &body.name);
+        let taken: Vec<&String> = bodies
+            .chain(self.rigid.iter().map(|rigid| &rigid.name))
+            .collect();
+        let is_free = |name: &String| !taken.contains(&name);
         names
             .into_iter()
             .find(is_free)
@@ -320,14 +334,15 @@ impl<'a> Model<'a> {
     /// The instance of rigid elements that an element set is of.
     fn rigid_instance(&self, keyword: &Keyword<'_>, set: &str) -> Option<usize> {
         let of_set = self.instance_of_set(set);
-        self.instances.iter().position(|instance| {
-            let mut own = instance.own.iter();
-            let is_own = own.any(|own| own.line == keyword.line);
+        let owners = self.owners(keyword);
+        let mut instances = self.instances.iter().enumerate();
+        let found = instances.find(|(at, instance)| {
             let prefix = set.rsplit_once('.').map_or("", |(prefix, _)| prefix);
             let named = prefix.eq_ignore_ascii_case(instance.name)
                 || of_set.is_some_and(|name| name.eq_ignore_ascii_case(instance.name));
-            instance.is_rigid() && (is_own || named)
-        })
+            instance.is_rigid() && (owners.contains(at) || named)
+        });
+        found.map(|(at, _)| at)
     }
 
     /// The instance that a set of the assembly is of.

@@ -229,3 +229,33 @@ fn clearances_and_later_pairs_are_listed() {
     ];
     assert_listed(&listed, &said);
 }
+
+#[test]
+fn numbers_of_a_penalty_are_listed() {
+    for (row, is_listed) in [
+        ("1e5, 0.02, 0.1", true),
+        (", 0.02", true),
+        (", , 0.1", true),
+        (", 0., 1.", false),
+        ("", false),
+    ] {
+        let contact = format!(
+            "*SURFACE INTERACTION, NAME=I\n*FRICTION\n0.2,\n*SURFACE BEHAVIOR, PENALTY\n{row}\n*CONTACT PAIR, INTERACTION=I\nPad-1.Bottom, Base-1.Top\n"
+        );
+        let (_, listed, _) = converted(&model("", &format!("{contact}{STEP}")));
+        let said = format!("*SURFACE BEHAVIOR, PENALTY of `{row}`: contact is exact");
+        let said = is_listed.then_some(said.as_str());
+        assert_listed(&listed, said.as_slice());
+    }
+}
+
+#[test]
+fn cyclic_symmetry_is_no_tie() {
+    let tie = "*TIE, NAME=T, CYCLIC SYMMETRY\nPad-1.Bottom, Base-1.Top\n";
+    let (_, listed, deck) = converted(&model(tie, STEP));
+    assert_listed(
+        &listed,
+        &["*TIE, CYCLIC SYMMETRY: both surfaces are those of one sector"],
+    );
+    assert!(deck.model.ties.is_empty());
+}

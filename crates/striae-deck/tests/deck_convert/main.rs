@@ -12,6 +12,7 @@ mod meshes;
 mod output;
 mod physics;
 mod rigid;
+mod springs;
 mod steps;
 
 use std::path::PathBuf;

@@ -128,7 +128,7 @@ fn elements_that_are_no_solids_are_listed() {
     let (_, listed, _) = converted(&text);
     assert_listed(
         &listed,
-        &["*ELEMENT, TYPE=S4: only solids are elements of a body"],
+        &["*ELEMENT, TYPE=S4: 1 element is left out; only C3D4 to C3D27 are elements of a body"],
     );
 }
 
@@ -176,4 +176,84 @@ fn included_files_are_named_with_their_lines() {
         .iter()
         .any(|line| line.starts_with("steps.inp line 1: *STEP `Press`"));
     assert!(found, "{:?}", made.listed);
+}
+
+#[test]
+fn solids_that_no_body_has_are_listed_and_left_out() {
+    for kind in ["COH3D8", "GK3D8", "SC8R", "CIN3D8"] {
+        let more = format!(
+            "*ELEMENT, TYPE={kind}, ELSET=Glue\n8, 5, 6, 7, 8, 5, 6, 7, 8\n9, 5, 6, 7, 8,\n 5, 6, 7, 8\n"
+        );
+        let cube = CUBE.replace("*NSET, NSET=Low", &format!("{more}*NSET, NSET=Low"));
+        let (_, listed, deck) = converted(&format!("{cube}*END ASSEMBLY\n{FOAM}{STEP}"));
+        let said = format!("*ELEMENT, TYPE={kind}: 2 elements are left out; only C3D4 to C3D27");
+        assert_listed(&listed, &[&said]);
+        assert_eq!(deck.model.bodies[0].mesh.element_count(), 1);
+    }
+}
+
+#[test]
+fn materials_end_at_keywords_that_are_no_options() {
+    for (keyword, said) in [
+        (
+            "*FOUNDATION\nPad-1.1, F1, 100.\n",
+            "*FOUNDATION: state a `[[spring]]` with a `direction`",
+        ),
+        ("*FILM PROPERTY, NAME=F\n1.,\n", "*FILM PROPERTY"),
+        ("*SECTION CONTROLS, NAME=C\n1.,\n", "*SECTION CONTROLS"),
+        (
+            "*SURFACE PROPERTY ASSIGNMENT, PROPERTY=THICKNESS\n, 1.\n",
+            "*SURFACE PROPERTY ASSIGNMENT",
+        ),
+        ("*CONTROLS\n1.,\n", "*CONTROLS"),
+        ("*BASE MOTION, DOF=1\n", "*BASE MOTION"),
+        ("*MONITOR, NODE=Pad-1.1, DOF=1\n", "*MONITOR"),
+    ] {
+        let (_, listed, deck) = converted(&model("", &format!("{keyword}{STEP}")));
+        assert_listed(&listed, &[said]);
+        assert_eq!(deck.model.bodies[0].density, 2e-9);
+    }
+}
+
+/// A column of two cubes of one part, with these sections.
+fn column(sections: &str) -> String {
+    let upper = "9, 0., 0., 2.\n10, 1., 0., 2.\n11, 1., 1., 2.\n12, 0., 1., 2.\n";
+    let second = "2, 5, 6, 7, 8, 9, 10, 11, 12\n*ELSET, ELSET=First\n1,\n";
+    let cube = CUBE
+        .replace("*ELEMENT", &format!("{upper}*ELEMENT"))
+        .replace("*NSET, NSET=Low", &format!("{second}*NSET, NSET=Low"))
+        .replace("*SOLID SECTION, ELSET=All, MATERIAL=Foam\n,\n", sections)
+        .replace(
+            "*INSTANCE, NAME=Pad-1, PART=Cube\n0., 0., 1.\n*END INSTANCE\n",
+            "",
+        );
+    let rigid = "*ELASTIC\n100., 0.\n*MATERIAL, NAME=Wood\n*ELASTIC\n50., 0.\n";
+    let step = "*STEP, NLGEOM=YES\n*STATIC\n*BOUNDARY\nBase-1.Low, 1, 3\n*END STEP\n";
+    format!("{cube}*END ASSEMBLY\n{FOAM}{step}").replace("*ELASTIC\n100., 0.\n", rigid)
+}
+
+#[test]
+fn the_last_section_of_an_element_holds() {
+    let foam = "*SOLID SECTION, ELSET=All, MATERIAL=Foam\n";
+    let wood = "*SOLID SECTION, ELSET=First, MATERIAL=Wood\n";
+    let (text, listed, deck) = converted(&column(&format!("{foam}{wood}")));
+    let said =
+        "*SOLID SECTION of `First` holds for element 1, not that of `All` which is stated before";
+    assert_listed(&listed, &[said]);
+    assert!(
+        text.contains("{ name = \"rest of All\", numbers = [1] }"),
+        "{text}"
+    );
+    assert_eq!(deck.model.bodies[0].sections.len(), 2);
+    let (text, listed, _) = converted(&column(&format!("{wood}{foam}")));
+    let said =
+        "*SOLID SECTION of `All` holds for element 1, not that of `First` which is stated before";
+    assert_listed(&listed, &[said]);
+    assert!(text.contains("\nmaterial = \"foam\"\n"), "{text}");
+}
+
+#[test]
+fn comments_on_top_may_have_signs_before_them() {
+    let (_, listed, _) = converted(&format!(">** written by a program\n{}", model("", STEP)));
+    assert_listed(&listed, &[]);
 }

@@ -183,3 +183,62 @@ fn courses_of_a_rigid_body_that_differ_are_listed() {
     let (_, listed, _) = converted(&model(rigid, &format!("{way}{step}")));
     assert_listed(&listed, &["a rigid body has one course in a step"]);
 }
+
+/// Two rigid planes, each stated within its instance as Abaqus/CAE does, beside these keywords.
+fn two_plates(names: [&str; 2], more: &str) -> String {
+    let part = "*PART, NAME=Plate\n*END PART\n";
+    let plate = |at: usize, z: f64| {
+        format!(
+            "*INSTANCE, NAME=Plate-{at}, PART=Plate\n*NODE\n1, 0., 0., {z}
+*NSET, NSET=Ref\n1,\n*SURFACE, TYPE=REVOLUTION, NAME=Face\nSTART, 0., {z}\nLINE, 5., {z}
+*RIGID BODY, REF NODE=Ref, ANALYTICAL SURFACE=Face\n*END INSTANCE\n"
+        )
+    };
+    let sets = "*NSET, NSET=R1, INSTANCE=Plate-1\n1,\n*NSET, NSET=R2, INSTANCE=Plate-2\n1,\n";
+    let pairs = format!(
+        "*SURFACE INTERACTION, NAME=I\n*FRICTION\n0.2,\n*CONTACT PAIR, INTERACTION=I\nBase-1.Bottom, {}\nPad-1.Top, {}\n",
+        names[0], names[1]
+    );
+    let held = "*BOUNDARY\nR1, ENCASTRE\nR2, ENCASTRE\n";
+    let assembly = format!("{}{}{sets}", plate(1, -1.0), plate(2, 4.0));
+    part.to_owned() + &model(&assembly, &format!("{pairs}{held}{more}"))
+}
+
+#[test]
+fn analytical_surfaces_are_those_of_their_instances() {
+    let friction = "*CHANGE FRICTION, INTERACTION=I\n*FRICTION\n0.1,\n*END STEP\n";
+    let step = STEP.replace("*END STEP\n", friction);
+    let text = two_plates(["Plate-1.Face", "Plate-2.Face"], &step);
+    let (text, listed, deck) = converted(&text);
+    assert_listed(&listed, &["analytical surface `Face` is made of"; 2]);
+    let rigid = &deck.model.rigid_surfaces;
+    let names: Vec<&str> = rigid.iter().map(|rigid| rigid.name.as_str()).collect();
+    assert_eq!(names, ["Plate-1", "Plate-2"]);
+    for (rigid, y) in rigid.iter().zip([-1.0, 4.0]) {
+        let RigidShape::Facets { positions, .. } = &rigid.shape else {
+            panic!("{:?}", rigid.shape);
+        };
+        assert!(positions.iter().all(|x| x.y == y), "{positions:?}");
+    }
+    for name in names {
+        assert!(
+            text.contains(&format!("b = {{ rigid = \"{name}\" }}")),
+            "{text}"
+        );
+    }
+    assert_eq!(text.matches("mu = 0.1").count(), 2, "{text}");
+}
+
+#[test]
+fn a_name_of_surfaces_of_several_instances_is_listed() {
+    let (_, listed, deck) = converted(&two_plates(["Face", "Plate-2.Face"], STEP));
+    assert_listed(
+        &listed,
+        &[
+            "analytical surface `Face` is made of",
+            "analytical surface `Face` is made of",
+            "contact of `Base-1.Bottom` and `Face`: several instances have a surface `Face`; write `INSTANCE.Face`",
+        ],
+    );
+    assert_eq!(deck.model.pairs.len(), 1);
+}

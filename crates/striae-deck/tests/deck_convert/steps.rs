@@ -139,3 +139,22 @@ fn initial_velocities_of_whole_bodies() {
     let (_, listed, _) = converted(&model("", &format!("{stress}{STEP}")));
     assert_listed(&listed, &["*INITIAL CONDITIONS, TYPE=STRESS"]);
 }
+
+#[test]
+fn nodes_on_the_axis_of_a_transform_are_left_out() {
+    let turned = "*TRANSFORM, NSET=Pad-1.High, TYPE=C\n1., 1., 0., 1., 1., 1.\n";
+    let step = STEP.replace("Pad-1.High, 3, 3, -0.02\n", "Pad-1.High, 2, 3\n");
+    let (_, listed, deck) = converted(&model(turned, &step));
+    assert_listed(
+        &listed,
+        &["*BOUNDARY of `Pad-1.High`: node Pad-1.7 is on the axis of the *TRANSFORM"],
+    );
+    let stated = deck.model.steps[0].displacements.iter();
+    let of = |component: usize| {
+        let mut found = stated
+            .clone()
+            .filter(|of| of.components[component].is_some() && of.set.starts_with("Pad-1.High"));
+        found.next().expect("it is prescribed").nodes.len()
+    };
+    assert_eq!((of(1), of(2)), (3, 4));
+}

@@ -51,7 +51,8 @@ pub(super) fn keywords(text: &str) -> Result<Vec<Keyword<'_>>, MeshFileFault> {
             keywords.push(keyword);
         } else if let Some(keyword) = keywords.last_mut() {
             keyword.rows.push(Row::new(line));
-        } else {
+        } else if !line.text.contains("**") {
+            // A comment on top may have signs of a prompt or of an encoding before it.
             return Err(line.fault("a keyword such as *NODE"));
         }
     }
@@ -119,7 +120,7 @@ impl<'a> Keyword<'a> {
     }
 
     /// The rows, each joined with those that continue it until it has so many words.
-    pub(super) fn joined_rows(&self, words: usize) -> Vec<Row<'a>> {
+    pub fn joined_rows(&self, words: usize) -> Vec<Row<'a>> {
         let mut joined: Vec<Row<'a>> = Vec::new();
         for row in &self.rows {
             match joined.last_mut() {

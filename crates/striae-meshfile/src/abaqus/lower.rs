@@ -1,8 +1,9 @@
-//! Elements of Abaqus that are no solids.
+//! Elements of Abaqus that are no solids of a body.
 //!
 //! Shells, membranes, surface elements and plane solids are facets, trusses, beams and pipes
 //! lines, by the beginning of their type. Their sets become sets of facets and nodes; elements
-//! of any other type, as masses and springs, are ignored, which a note says.
+//! of any other type, as masses, springs, cohesive elements and continuum shells, are ignored, which
+//! a note says.
 
 use super::super::collected::{Collected, FileFace};
 use super::super::lines::parsed;
@@ -27,10 +28,6 @@ struct Element {
     nodes: Vec<u64>,
 }
 
-/// Beginnings of the types of solids that are not read.
-const SOLIDS: [&str; 10] = [
-    "C3D", "COH3D", "SC6", "SC8", "DC3D", "AC3D", "GK3D", "CIN3D", "EC3D", "CSS8",
-];
 /// Beginnings of the types of facets.
 const FACETS: [&str; 14] = [
     "S3", "S4", "S6", "S8", "S9", "STRI", "SFM", "M3D", "R3D", "CPS", "CPE", "CAX", "DS", "AC2D",
@@ -38,9 +35,9 @@ const FACETS: [&str; 14] = [
 /// Beginnings of the types of lines.
 const LINES: [&str; 7] = ["T2D", "T3D", "B2", "B3", "PIPE", "R2D", "RB"];
 
-/// Returns whether elements of this type, in capitals, are solids.
+/// Returns whether elements of this type, in capitals, are solids of a body.
 pub(super) fn is_solid(kind: &str) -> bool {
-    SOLIDS.iter().any(|start| kind.starts_with(start))
+    kind.starts_with("C3D")
 }
 
 impl Lower {

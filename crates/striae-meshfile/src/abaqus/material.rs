@@ -1,9 +1,12 @@
 //! Material cards of an Abaqus file.
 //!
-//! The keywords below `*MATERIAL`, up to one that belongs to another part of the file, state
-//! its options. Those of [`cards`](crate::Card) are read. Those of heat, and others that leave
-//! stresses as they are without temperatures, are passed over and told as unused. Any other makes
-//! the material one that cannot be used, and is named. Constants may stand for one temperature only.
+//! The keywords below `*MATERIAL`, up to one that is no option of materials, state its options.
+//! Those of [`cards`](crate::Card) are read. Those of heat, and others that leave stresses as they
+//! are without temperatures, are passed over and told as unused. Any other makes the material one
+//! that cannot be used, and is named. Constants may stand for one temperature only.
+//!
+//! Longer than other files, as it lists the options that materials may have. Source: Abaqus
+//! keywords reference guide.
 
 use super::super::MeshFileFault;
 use super::super::cards::{Card, Elasticity, MaterialCard, Moduli};
@@ -11,65 +14,113 @@ use super::keywords::{Keyword, Row};
 use super::number;
 use std::collections::BTreeSet;
 
-/// Keywords that belong to no material; so do those that end in `SECTION` or begin with `END`,
-/// `CONTACT` or `CONNECTOR`.
-const OTHERS: [&str; 56] = [
-    "AMPLITUDE",
-    "ASSEMBLY",
-    "BASELINE CORRECTION",
-    "BOUNDARY",
-    "CHANGE FRICTION",
-    "CLEARANCE",
-    "COUPLING",
-    "CYCLIC SYMMETRY MODEL",
-    "DASHPOT",
-    "DESIGN VARIABLES",
-    "DISTRIBUTING",
-    "DISTRIBUTION",
-    "DISTRIBUTION TABLE",
-    "ELEMENT",
-    "ELSET",
-    "EMBEDDED ELEMENT",
-    "EQUATION",
-    "FIELD",
-    "FILTER",
-    "FLUID BEHAVIOR",
-    "FLUID CAVITY",
-    "FRICTION",
-    "GAP",
-    "HEADING",
-    "IMPERFECTION",
-    "INITIAL CONDITIONS",
-    "INSTANCE",
-    "KINEMATIC",
-    "KINEMATIC COUPLING",
-    "MASS",
-    "MATERIAL",
-    "MPC",
-    "NODAL THICKNESS",
-    "NODE",
-    "NSET",
-    "ORIENTATION",
-    "PARAMETER",
-    "PART",
-    "PHYSICAL CONSTANTS",
-    "PREPRINT",
-    "RESTART",
-    "RIGID BODY",
-    "ROTARY INERTIA",
-    "SHELL TO SOLID COUPLING",
-    "SPRING",
-    "STEP",
-    "SUBMODEL",
-    "SURFACE",
-    "SURFACE BEHAVIOR",
-    "SURFACE INTERACTION",
-    "SYSTEM",
-    "TEMPERATURE",
-    "TIE",
-    "TIME POINTS",
-    "TRANSFORM",
-    "USER ELEMENT",
+/// Options of materials that are read or tell of a law that decks lack; any other keyword ends a
+/// material.
+const OPTIONS: [&str; 104] = [
+    "ACOUSTIC MEDIUM",
+    "ANISOTROPIC HYPERELASTIC",
+    "ANNEAL TEMPERATURE",
+    "BIAXIAL TEST DATA",
+    "BRITTLE CRACKING",
+    "BRITTLE FAILURE",
+    "BRITTLE SHEAR",
+    "CAP CREEP",
+    "CAP HARDENING",
+    "CAP PLASTICITY",
+    "CAPACITY",
+    "CAST IRON COMPRESSION HARDENING",
+    "CAST IRON PLASTICITY",
+    "CAST IRON TENSION HARDENING",
+    "CLAY HARDENING",
+    "CLAY PLASTICITY",
+    "COMBINED TEST DATA",
+    "COMPRESSION ONLY",
+    "CONCRETE",
+    "CONCRETE COMPRESSION DAMAGE",
+    "CONCRETE COMPRESSION HARDENING",
+    "CONCRETE DAMAGED PLASTICITY",
+    "CONCRETE FAILURE",
+    "CONCRETE TENSION DAMAGE",
+    "CONCRETE TENSION STIFFENING",
+    "CREEP",
+    "CRUSHABLE FOAM",
+    "CRUSHABLE FOAM HARDENING",
+    "CYCLED PLASTIC",
+    "CYCLIC HARDENING",
+    "DAMAGE EVOLUTION",
+    "DAMAGE INITIATION",
+    "DAMAGE STABILIZATION",
+    "DEFORMATION PLASTICITY",
+    "DENSITY",
+    "DRUCKER PRAGER",
+    "DRUCKER PRAGER CREEP",
+    "DRUCKER PRAGER HARDENING",
+    "ELASTIC",
+    "EOS",
+    "EOS COMPACTION",
+    "FABRIC",
+    "FAIL STRAIN",
+    "FAIL STRESS",
+    "FAILURE RATIOS",
+    "FLUID CONSTANTS",
+    "FLUID LEAKOFF",
+    "GAP FLOW",
+    "GASKET CONTACT AREA",
+    "GASKET ELASTICITY",
+    "GASKET THICKNESS BEHAVIOR",
+    "GEL",
+    "HYPERELASTIC",
+    "HYPERFOAM",
+    "HYPOELASTIC",
+    "HYSTERESIS",
+    "LOADING DATA",
+    "LOW DENSITY FOAM",
+    "MOHR COULOMB",
+    "MOHR COULOMB HARDENING",
+    "MOISTURE SWELLING",
+    "MULLINS EFFECT",
+    "NO COMPRESSION",
+    "NO TENSION",
+    "NONLINEAR BH",
+    "ORNL",
+    "PERMANENT MAGNETIZATION",
+    "PERMEABILITY",
+    "PIEZOELECTRIC",
+    "PLANAR TEST DATA",
+    "PLASTIC",
+    "PLASTICITY CORRECTION",
+    "POROUS BULK MODULI",
+    "POROUS ELASTIC",
+    "POROUS FAILURE CRITERIA",
+    "POROUS METAL PLASTICITY",
+    "POTENTIAL",
+    "RATE DEPENDENT",
+    "REACTION RATE",
+    "SHEAR FAILURE",
+    "SHEAR RETENTION",
+    "SHEAR TEST DATA",
+    "SIMPLE SHEAR TEST DATA",
+    "SORPTION",
+    "SPECIFIC GAS CONSTANT",
+    "SUPERELASTIC",
+    "SUPERELASTIC HARDENING",
+    "SUPERELASTIC HARDENING MODIFICATIONS",
+    "SWELLING",
+    "TENSILE FAILURE",
+    "TENSION CUTOFF",
+    "TENSION STIFFENING",
+    "TRIAXIAL TEST DATA",
+    "TRS",
+    "UNIAXIAL",
+    "UNIAXIAL TEST DATA",
+    "UNLOADING DATA",
+    "USER DEFINED FIELD",
+    "USER MATERIAL",
+    "VISCOELASTIC",
+    "VISCOSITY",
+    "VISCOUS",
+    "VOID NUCLEATION",
+    "VOLUMETRIC TEST DATA",
 ];
 
 /// Options that change no stress as long as temperatures do not change, and damping, which is
@@ -147,12 +198,7 @@ fn is_passed_over(keyword: &Keyword<'_>) -> bool {
 }
 
 fn is_option(keyword: &Keyword<'_>) -> bool {
-    let name = keyword.name.as_str();
-    let starts = ["END", "CONTACT", "CONNECTOR"];
-    let is_other = OTHERS.contains(&name)
-        || name.ends_with("SECTION")
-        || starts.iter().any(|start| name.starts_with(start));
-    !is_other
+    OPTIONS.contains(&keyword.name.as_str()) || is_passed_over(keyword)
 }
 
 fn card<'k>(

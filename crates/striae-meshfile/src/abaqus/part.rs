@@ -320,7 +320,12 @@ impl Part {
                 remedy: "mesh the rigid surface with them",
             });
         }
-        Ok((RigidSurfaceMesh { positions, facets }, numbers))
+        let surface = RigidSurfaceMesh {
+            positions,
+            facets,
+            left_out: 0,
+        };
+        Ok((surface, numbers))
     }
 
     /// The mesh, with the names of instances that numbers need.
