@@ -1,5 +1,7 @@
 //! Bodies that nothing can hold, meshes that cannot be and surfaces that look away are refused
 //! before a run, with the line of the deck.
+//!
+//! Longer than other files, as all its tests change one deck.
 
 use std::path::Path;
 

@@ -157,7 +157,7 @@ pub fn away(model: &Model, pair: PairId, turned: Turned) -> InitialFault {
                 RigidShape::Plane { .. } => Reversal::Normal,
                 RigidShape::Facets { .. } | RigidShape::Bare => Reversal::Corners,
             };
-            Some((of_rigid.name.clone(), reversal))
+            Some(Box::new((of_rigid.name.clone(), reversal)))
         }
         ContactSurface::Deformable { .. } | ContactSurface::Itself => None,
     };

@@ -93,7 +93,7 @@ pub enum InitialFault {
         /// Angle between the normals there, in degrees.
         angle: f64,
         /// Rigid surface that is a side, if one is, and the part of its statement to reverse.
-        rigid: Option<(String, Reversal)>,
+        rigid: Option<Box<(String, Reversal)>>,
     },
     /// Facets of one side are far smaller than those of the other.
     #[error(
@@ -174,8 +174,8 @@ pub enum Reversal {
 }
 
 /// Advice for surfaces that look away from each other.
-fn turning(rigid: &Option<(String, Reversal)>) -> String {
-    match rigid {
+fn turning(rigid: &Option<Box<(String, Reversal)>>) -> String {
+    match rigid.as_deref() {
         Some((rigid, Reversal::Corners)) => format!(
             "Reverse the facets of `{rigid}` (list their corners counter-clockwise as seen from the body), or name the facets of the body that face it"
         ),
