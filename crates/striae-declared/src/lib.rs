@@ -17,7 +17,7 @@ pub use parameter::{
     Parameter, Set,
 };
 pub use set::Choice;
-pub use terms::{degrees, read_as};
+pub use terms::{degrees, read_as, shown};
 pub use value::{Value, Values};
 
 use std::fmt;

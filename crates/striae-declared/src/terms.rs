@@ -16,9 +16,36 @@ pub fn degrees(angle: f64) -> f64 {
     read_as(angle, angle.to_degrees(), f64::to_radians)
 }
 
+/// Magnitudes that are shown without an exponent.
+const PLAIN: std::ops::Range<f64> = 1e-5..1e15;
+
+/// Returns a number as messages show it: with the digits that tell it from all others, and with an
+/// exponent if it is very large or small.
+pub fn shown(value: f64) -> String {
+    match value == 0.0 || !value.is_finite() || PLAIN.contains(&value.abs()) {
+        true => value.to_string(),
+        false => format!("{value:e}"),
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{degrees, read_as};
+    use super::{degrees, read_as, shown};
+
+    #[test]
+    fn numbers_are_shown_in_few_characters() {
+        for (value, text) in [
+            (0.0, "0"),
+            (-0.25, "-0.25"),
+            (1e14, "100000000000000"),
+            (1e300, "1e300"),
+            (-1e-300, "-1e-300"),
+            (f64::INFINITY, "inf"),
+        ] {
+            assert_eq!(shown(value), text);
+        }
+        assert!(shown(-1e300 / 6.0).len() < 25);
+    }
 
     #[test]
     fn numbers_in_other_terms_are_read_as_the_same_bits() {

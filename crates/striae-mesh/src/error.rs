@@ -1,6 +1,7 @@
 //! Errors of meshes and of the parameters of generators.
 
 use crate::{CellKind, ElementId, Face, NodeId};
+use striae_declared::shown;
 
 /// Error of a mesh or of the parameters of a generator.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -84,8 +85,22 @@ pub enum MeshError {
         /// Its smallest Jacobian determinant.
         determinant: f64,
     },
+    /// Elements that one parameter of a generator turns inside out.
+    #[error(
+        "{count} elements are turned inside out or degenerate, the first is {element}, and none without `{parameter}`; make it more moderate or leave it out ({doc})"
+    )]
+    Distorted {
+        /// Number of such elements.
+        count: usize,
+        /// The first of them.
+        element: ElementId,
+        /// Name of the parameter.
+        parameter: &'static str,
+        /// Description of the parameter.
+        doc: &'static str,
+    },
     /// A parameter of a generator outside its range.
-    #[error("{name} is {value}, but {requirement}")]
+    #[error("{name} is {}, but {requirement}", shown(*value))]
     Parameter {
         /// Name of the parameter.
         name: &'static str,
@@ -96,7 +111,7 @@ pub enum MeshError {
     },
     /// A capped block that has no height left at its corners.
     #[error(
-        "height is {height}, but must be more than {rise:.6}, the rise of the cap at the corners; make the block higher or smaller in plan, or the radius larger"
+        "height is {}, but must be more than {rise:.6}, the rise of the cap at the corners; make the block higher or smaller in plan, or the radius larger", shown(*height)
     )]
     CapRise {
         /// Its height.

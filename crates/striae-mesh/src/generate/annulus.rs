@@ -159,7 +159,7 @@ impl Annulus {
     pub fn mesh(&self) -> Result<Mesh, MeshError> {
         self.check_parameters()?;
         let [radial, around, axial] = self.divisions;
-        let grid = Grid::new([radial, axial, around], Closure::Ring)?;
+        let grid = Grid::new([radial, axial, around], 1, Closure::Ring)?;
         let radii = self.radial_grading.nodes(radial)?;
         let depths = self.axial_grading.nodes(axial)?;
         let angles = self.angles();

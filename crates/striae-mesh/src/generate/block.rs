@@ -18,8 +18,8 @@
 //! Cells of other kinds are made by dividing the hexahedra.
 
 use super::Grading;
-use super::division::{CELLS, Division, cells, parts};
-use super::generator::{Generate, Generator, lattice_nodes, product};
+use super::division::{CELLS, Division, cells, nodes, parts};
+use super::generator::{Generate, Generator, product};
 use super::grading::{EQUAL, GRADING};
 use super::grid::{Closure, Grid, Side, named_mesh};
 use crate::random::Random;
@@ -167,7 +167,7 @@ impl Generate for Block {
     }
 
     fn nodes(&self) -> Option<u128> {
-        Some(lattice_nodes(&self.divisions))
+        Some(nodes(self.cells, &self.divisions))
     }
 }
 
@@ -197,7 +197,7 @@ impl Block {
     /// out of range, [`MeshError::Inverted`] where they distort the mesh too much.
     pub fn mesh(&self) -> Result<Mesh, MeshError> {
         self.check_parameters()?;
-        let grid = Grid::new(self.divisions, Closure::Open)?;
+        let grid = Grid::new(self.divisions, parts(self.cells), Closure::Open)?;
         let mut nodes: [Vec<f64>; 3] = Default::default();
         for axis in 0..3 {
             nodes[axis] = self.gradings[axis].nodes(self.divisions[axis])?;

@@ -10,7 +10,7 @@
 //! Cells of other kinds are made by dividing the hexahedra at `(x, y, s)`, so that nodes in
 //! the middles of edges lie on the sphere as well.
 
-use super::division::{CELLS, Division, cells, parts};
+use super::division::{CELLS, Division, cells, nodes, parts};
 use super::generator::{Generate, Generator, product};
 use super::grading::{mirrored, refined_lengths, unit_partial_sums};
 use super::grid::{Closure, Grid, Side, named_mesh};
@@ -137,10 +137,12 @@ impl Generate for CappedBlock {
     }
 
     fn elements(&self) -> Option<u128> {
-        let [x, y] = self.plan_lengths().ok()?;
-        let z = refined_lengths(self.height, self.fine_depth, self.element_size, self.growth);
-        let hexahedra = product(&[x.len(), y.len(), z.ok()?.len()]);
+        let hexahedra = product(&self.divisions()?);
         Some(hexahedra.saturating_mul(parts(self.cells) as u128))
+    }
+
+    fn nodes(&self) -> Option<u128> {
+        Some(nodes(self.cells, &self.divisions()?))
     }
 }
 
@@ -182,6 +184,7 @@ impl CappedBlock {
             refined_lengths(self.height, self.fine_depth, self.element_size, self.growth)?;
         let grid = Grid::new(
             [x_lengths.len(), y_lengths.len(), z_lengths.len()],
+            parts(self.cells),
             Closure::Open,
         )?;
         let [x, y, s] = [&x_lengths, &y_lengths, &z_lengths].map(|l| unit_partial_sums(l));
@@ -224,6 +227,13 @@ impl CappedBlock {
             Part::Whole => [mirrored(&x?), mirrored(&y?)],
             Part::Half => [mirrored(&x?), y?],
         })
+    }
+
+    /// Numbers of hexahedra along the axes; `None` for parameters out of range.
+    fn divisions(&self) -> Option<[usize; 3]> {
+        let [x, y] = self.plan_lengths().ok()?;
+        let z = refined_lengths(self.height, self.fine_depth, self.element_size, self.growth);
+        Some([x.len(), y.len(), z.ok()?.len()])
     }
 
     fn check_parameters(&self) -> Result<(), MeshError> {

@@ -8,6 +8,7 @@
 
 use std::collections::HashMap;
 
+use super::generator::{lattice_nodes, product};
 use crate::{CellBlock, CellKind, ElementId, Face, NodeId, Vec3, mesh::face_nodes};
 use striae_declared::{Parameter, Values};
 
@@ -64,6 +65,18 @@ pub(super) fn parts(kind: CellKind) -> usize {
         CellKind::Wedge => 2,
         _ => 6,
     }
+}
+
+/// Returns about how many nodes the cells of a divided lattice have.
+pub(super) fn nodes(kind: CellKind, divisions: &[usize; 3]) -> u128 {
+    // The edges of a divided hexahedron that are its own in the inside of a lattice are seven:
+    // three of its edges, a diagonal of three faces and the one through its middle.
+    let added = match kind {
+        CellKind::Pyramid => 1,
+        CellKind::CompositeTetrahedron => 7,
+        _ => 0,
+    };
+    lattice_nodes(divisions).saturating_add(product(divisions).saturating_mul(added))
 }
 
 /// Hexahedra and what they are divided into.

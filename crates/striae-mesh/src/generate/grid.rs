@@ -30,8 +30,13 @@ pub(super) enum Side {
 }
 
 impl Grid {
-    pub(super) fn new(divisions: [usize; 3], closure: Closure) -> Result<Self, MeshError> {
-        check_element_count(divisions)?;
+    /// Creates the grid if there are not too many elements once each is divided into `parts`.
+    pub(super) fn new(
+        divisions: [usize; 3],
+        parts: usize,
+        closure: Closure,
+    ) -> Result<Self, MeshError> {
+        check_element_count(divisions.into_iter().chain([parts]))?;
         Ok(Self { divisions, closure })
     }
 

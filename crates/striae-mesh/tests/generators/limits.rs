@@ -1,7 +1,7 @@
 //! Parameters that no mesh can be made of.
 
-use striae_mesh::MeshError;
 use striae_mesh::generate::{Annulus, Block, CappedBlock, Cylinder, HalfCylinder, Torus};
+use striae_mesh::{CellKind, MeshError};
 
 #[test]
 fn meshes_beyond_all_bounds_are_refused_at_once() {
@@ -10,6 +10,14 @@ fn meshes_beyond_all_bounds_are_refused_at_once() {
         ..Block::default()
     };
     assert!(matches!(block.mesh(), Err(MeshError::TooLarge { .. })));
+    let divided = Block {
+        divisions: [150; 3],
+        cells: CellKind::CompositeTetrahedron,
+        ..Block::default()
+    };
+    let refused = divided.mesh().map_err(|error| error.to_string());
+    let expected = "the mesh would have 20250000 elements, but the limit is 20000000";
+    assert_eq!(refused, Err(expected.to_owned()));
     let ring = Annulus {
         divisions: [1, 1 << 40, 1],
         ..Annulus::default()
