@@ -23,6 +23,7 @@
 mod abaqus;
 mod cards;
 mod collected;
+mod content;
 mod division;
 mod error;
 mod gmsh;
@@ -42,6 +43,7 @@ mod vtk;
 
 pub use abaqus::{InputFile, Keyword, Points, Row, finite, material_lines};
 pub use cards::{Card, Elasticity, MaterialCard, Moduli, SectionCard};
+pub use content::content;
 pub use error::{MeshFileError, MeshFileFault, Place, Section};
 pub use node_vectors::NodeVectors;
 pub use numbers::Numbers;
@@ -59,6 +61,8 @@ pub struct RigidSurfaceMesh {
     /// Corners of the facets in the order of the file; a triangle repeats its
     /// last corner.
     pub facets: Vec<[NodeId; 4]>,
+    /// Triangles of an STL file that have no area and are left out.
+    pub left_out: usize,
 }
 
 /// The mesh of a body read from a file.
@@ -255,7 +259,7 @@ fn ending(path: &Path) -> String {
 }
 
 fn bytes(path: &Path) -> Result<Vec<u8>, MeshFileFault> {
-    std::fs::read(path).map_err(MeshFileFault::Unreadable)
+    content(path).map_err(MeshFileFault::Unreadable)
 }
 
 /// The text of a file; bytes that are not UTF-8 can only matter in names.

@@ -32,6 +32,10 @@ impl NodeVectors {
         number: u64,
         vector: Vec3,
     ) -> Result<(), MeshFileFault> {
+        if let Some(wrong) = vector.iter().find(|component| !component.is_finite()) {
+            let found = format!("{wrong} at node {number}");
+            return Err(MeshFileFault::at(place, "a finite component", found));
+        }
         match self.0.insert(number, vector) {
             None => Ok(()),
             Some(_) => {

@@ -142,5 +142,10 @@ fn joined(triangles: &[[Vec3; 3]]) -> RigidSurfaceMesh {
         });
         facets.push([a, b, c, c]);
     }
-    RigidSurfaceMesh { positions, facets }
+    let left_out = triangles.len() - facets.len();
+    RigidSurfaceMesh {
+        positions,
+        facets,
+        left_out,
+    }
 }

@@ -104,7 +104,12 @@ pub(super) fn numbered_rigid_surface(
             remedy: "mesh the surfaces (gmsh -2) and save them",
         });
     }
-    Ok((RigidSurfaceMesh { positions, facets }, numbers))
+    let surface = RigidSurfaceMesh {
+        positions,
+        facets,
+        left_out: 0,
+    };
+    Ok((surface, numbers))
 }
 
 /// The content of a file.

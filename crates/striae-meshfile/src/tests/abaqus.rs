@@ -193,7 +193,7 @@ fn broken_abaqus_files_are_explained() {
             ],
         ),
         (
-            "*ELEMENT, TYPE=COH3D8\n",
+            "*ELEMENT, TYPE=C3D9\n",
             ["line 1", "mesh the part with these elements"],
         ),
         (

@@ -84,6 +84,29 @@ fn coordinates_that_are_not_finite_are_named_as_the_file_names_them() {
     }
 }
 
+#[test]
+fn byte_order_marks_are_passed_over_in_files_of_all_kinds() {
+    let folder = tempfile::tempdir().unwrap();
+    let marked = |name: &str, bytes: &[u8]| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, ["\u{feff}".as_bytes(), bytes].concat()).unwrap();
+        path
+    };
+    let mesh = block(CellKind::Hexahedron);
+    for (name, text) in [
+        ("a.msh", written::gmsh2(&mesh)),
+        ("a.inp", written::abaqus(&mesh)),
+    ] {
+        let found = read(marked(name, text.as_bytes())).unwrap();
+        assert_eq!(found.element_count(), mesh.element_count(), "{name}");
+    }
+    let stl = marked("a.stl", &written::stl_ascii(&cube_triangles()));
+    let surface = mesh_file::read_rigid_surface(stl).unwrap();
+    assert_eq!(surface.facets.len(), 12);
+    let csv = marked("a.csv", b"node,x,y,z\n1,1,0,0\n");
+    mesh_file::read_node_vectors(csv, None).unwrap();
+}
+
 proptest! {
     #[test]
     fn damaged_files_never_panic(cut in 0.0..1.0f64, at in 0.0..1.0f64, byte in 32..127u8) {

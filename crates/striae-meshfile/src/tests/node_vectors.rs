@@ -71,6 +71,10 @@ fn broken_node_data_are_explained() {
         ),
         (section("f", 3, &["1 1 0 up"]), ["line 15", "`up`"]),
         (
+            section("f", 3, &["1 1 0 inf"]),
+            ["line 15: expected a finite component", "inf at node 1"],
+        ),
+        (
             "$NodeData\n1\nf\n".to_owned(),
             ["line 6", "quotation marks"],
         ),
@@ -105,6 +109,10 @@ fn lists_give_vectors_line_by_line() {
         (
             "node,x,y,z\n1,2,b,4\n",
             ["line 2: expected a component", "`b`"],
+        ),
+        (
+            "node,x,y,z\n1,2,3,4\n2,nan,0,0\n",
+            ["line 3: expected a finite component", "NaN at node 2"],
         ),
         (
             "node,x,y,z\n1,2,3,4\n1,2,3,4\n",

@@ -24,6 +24,7 @@ fn stl_triangles_share_their_corners() {
     ] {
         let surface = rigid_surface(&bytes).unwrap();
         assert_eq!((surface.positions.len(), surface.facets.len()), (8, 12));
+        assert_eq!(surface.left_out, 1);
         assert!(surface.facets.iter().all(|facet| facet[2] == facet[3]));
         assert!((volume(&surface) - 1.0).abs() < 1e-12);
     }
