@@ -1,6 +1,8 @@
 //! Faults of a deck, with the messages shown to its author.
 //!
 //! Faults of what the deck describes are those of the model, [`striae_model::FaultKind`].
+//!
+//! Longer than other files, as it is the one list of all faults with their messages.
 
 use striae_model::NoFunction;
 
@@ -84,7 +86,7 @@ pub enum FaultKind {
     },
     /// A path to a number leads nowhere.
     #[error(
-        "`{path}` is no number of this deck; {place} has {}{}", or_none(known), did_you_mean(.nearest)
+        "`{path}` is no number of this deck; {place} has {}{}", or_none(known), mistaken_or_absent(.nearest)
     )]
     UnknownPath {
         /// The path.
@@ -193,15 +195,23 @@ pub enum FaultKind {
         /// The groups.
         choices: Vec<String>,
     },
+    /// A step of more increments than any run makes.
+    #[error("step `{step}` would have more than {most:e} increments; take fewer or larger ones")]
+    Increments {
+        /// The step.
+        step: String,
+        /// Largest number allowed.
+        most: f64,
+    },
     /// Two things of one kind have the same name.
-    #[error("{kind} `{name}` is already defined in line {line}")]
+    #[error("{kind} `{name}` is already defined {place}")]
     DuplicateName {
         /// Body, material, ...
         kind: &'static str,
         /// The name.
         name: String,
-        /// Line of the first definition.
-        line: usize,
+        /// Place of the first definition, such as `in line 4`.
+        place: String,
     },
     /// A curve takes the name of a built-in one.
     #[error("`{name}` is a built-in curve; give this one another name")]
@@ -365,6 +375,13 @@ fn did_you_mean(nearest: &Option<String>) -> String {
     nearest
         .as_ref()
         .map_or_else(String::new, |name| format!("; did you mean `{name}`?"))
+}
+
+fn mistaken_or_absent(nearest: &Option<String>) -> String {
+    match nearest {
+        Some(_) => did_you_mean(nearest),
+        None => "; a number that the deck leaves to its default must be stated there first".into(),
+    }
 }
 
 fn quoted(words: &[String]) -> String {

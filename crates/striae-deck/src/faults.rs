@@ -12,7 +12,10 @@
 //! Lines and columns count from one; columns count characters.
 
 use super::{Laws, fault::FaultKind};
-use std::{borrow::Cow, fmt, ops::Range};
+use std::{borrow::Cow, collections::BTreeMap, fmt, ops::Range};
+
+/// Faults that are shown at most, as nobody reads more of them at a time.
+const MOST_SHOWN: usize = 50;
 
 /// A range of bytes of the deck's text.
 pub type Span = Range<usize>;
@@ -76,7 +79,8 @@ impl Faults {
         let text = String::from_utf8_lossy(bytes);
         let start = String::from_utf8_lossy(&bytes[..valid]).len();
         let kind = FaultKind::NotText;
-        Self(vec![locate(file, &text, &(start..start + 1), kind)])
+        let source = Source::new(0, file.into(), text);
+        Self(vec![source.locate(&(start..start + 1), kind)])
     }
 
     /// The faults in the order of their positions.
@@ -87,7 +91,7 @@ impl Faults {
 
 impl fmt::Display for Faults {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for fault in &self.0 {
+        for fault in self.0.iter().take(MOST_SHOWN) {
             writeln!(f, "{fault}")?;
             if let (Some(position), Some(excerpt)) = (fault.position, &fault.excerpt) {
                 let indent = " ".repeat(position.column - 1);
@@ -100,6 +104,12 @@ impl fmt::Display for Faults {
         }
         match self.0.len() {
             1 => write!(f, "1 fault"),
+            count if count > MOST_SHOWN => {
+                write!(
+                    f,
+                    "{count} faults, of which the first {MOST_SHOWN} are shown"
+                )
+            }
             count => write!(f, "{count} faults"),
         }
     }
@@ -122,7 +132,8 @@ impl fmt::Display for Fault {
 pub(crate) struct FaultList<'s> {
     /// The deck, and what it includes.
     sources: Vec<Source<'s>>,
-    found: Vec<(Span, FaultKind)>,
+    /// By where their spans start.
+    found: BTreeMap<usize, Vec<(Span, FaultKind)>>,
     /// Places whose values are missing by a fault elsewhere.
     excused: Vec<Span>,
     /// Laws that the deck may name.
@@ -134,17 +145,15 @@ struct Source<'s> {
     start: usize,
     file: Cow<'s, str>,
     text: Cow<'s, str>,
+    /// Starts of its lines.
+    lines: Vec<usize>,
 }
 
 impl<'s> FaultList<'s> {
     pub(crate) fn new(file: &'s str, text: &'s str, laws: &'s Laws) -> Self {
         Self {
-            sources: vec![Source {
-                start: 0,
-                file: file.into(),
-                text: text.into(),
-            }],
-            found: Vec::new(),
+            sources: vec![Source::new(0, file.into(), text.into())],
+            found: BTreeMap::new(),
             excused: Vec::new(),
             laws,
         }
@@ -159,11 +168,8 @@ impl<'s> FaultList<'s> {
     pub(crate) fn include(&mut self, file: String, text: String) -> usize {
         let last = self.sources.last();
         let start = last.map_or(0, |last| last.start + last.text.len() + 1);
-        self.sources.push(Source {
-            start,
-            file: file.into(),
-            text: text.into(),
-        });
+        let source = Source::new(start, file.into(), text.into());
+        self.sources.push(source);
         start
     }
 
@@ -179,8 +185,9 @@ impl<'s> FaultList<'s> {
 
     pub(crate) fn push(&mut self, span: &Span, kind: impl Into<FaultKind>) {
         let entry = (span.clone(), kind.into());
-        if !self.found.contains(&entry) {
-            self.found.push(entry);
+        let there = self.found.entry(span.start).or_default();
+        if !there.contains(&entry) {
+            there.push(entry);
         }
     }
 
@@ -191,7 +198,8 @@ impl<'s> FaultList<'s> {
 
     /// True where a fault has been found inside the range, or the value is missing by another.
     pub(crate) fn within(&self, range: &Span) -> bool {
-        let found = self.found.iter().map(|(span, _)| span);
+        let found = self.found.range(range.start..=range.end.max(range.start));
+        let found = found.flat_map(|(_, there)| there.iter().map(|(span, _)| span));
         found
             .chain(&self.excused)
             .any(|span| range.start <= span.start && span.end <= range.end)
@@ -201,16 +209,22 @@ impl<'s> FaultList<'s> {
         self.found.is_empty()
     }
 
-    pub(crate) fn line(&self, span: &Span) -> usize {
-        let (source, span) = self.source(span);
-        position(&source.text, span.start).line
+    /// Location of a definition as seen from another place: its line, with its file if that is
+    /// another one.
+    pub(crate) fn seen_from(&self, definition: &Span, span: &Span) -> String {
+        let Location { file, position } = self.location(definition);
+        let line = position.line;
+        match self.source(span).0.file == file {
+            true => format!("in line {line}"),
+            false => format!("in `{file}`, line {line}"),
+        }
     }
 
     pub(crate) fn location(&self, span: &Span) -> Location {
         let (source, span) = self.source(span);
         Location {
             file: source.file.clone().into_owned(),
-            position: position(&source.text, span.start),
+            position: source.position(span.start),
         }
     }
 
@@ -220,8 +234,7 @@ impl<'s> FaultList<'s> {
     }
 
     pub(crate) fn into_faults(mut self) -> Faults {
-        self.found.sort_by_key(|(span, _)| span.start);
-        let found = std::mem::take(&mut self.found).into_iter();
+        let found = std::mem::take(&mut self.found).into_values().flatten();
         Faults(
             found
                 .map(|(span, kind)| self.located(&span, kind))
@@ -231,50 +244,58 @@ impl<'s> FaultList<'s> {
 
     fn located(&self, span: &Span, kind: FaultKind) -> Fault {
         let (source, span) = self.source(span);
-        locate(&source.file, &source.text, &span, kind)
+        source.locate(&span, kind)
     }
 }
 
-fn locate(file: &str, text: &str, span: &Span, kind: FaultKind) -> Fault {
-    let position = position(text, span.start);
-    let line = text
-        .split('\n')
-        .nth(position.line - 1)
-        .unwrap_or("")
-        .trim_end();
-    // Tabs would shift the underline, so they are shown as one blank.
-    let shown: String = line
-        .chars()
-        .map(|c| if c.is_control() { ' ' } else { c })
-        .collect();
-    let start = floor(text, span.start);
-    let end = floor(text, span.end.max(start));
-    let marked = text[start..end]
-        .split('\n')
-        .next()
-        .unwrap_or("")
-        .trim_end()
-        .chars()
-        .count();
-    let excerpt = Excerpt {
-        text: shown,
-        length: marked.max(1),
-    };
-    Fault {
-        file: file.into(),
-        position: Some(position),
-        kind,
-        excerpt: Some(excerpt),
+impl<'s> Source<'s> {
+    fn new(start: usize, file: Cow<'s, str>, text: Cow<'s, str>) -> Self {
+        let ends = text.match_indices('\n').map(|(end, _)| end + 1);
+        let lines = std::iter::once(0).chain(ends).collect();
+        Self {
+            start,
+            file,
+            text,
+            lines,
+        }
+    }
+
+    fn locate(&self, span: &Span, kind: FaultKind) -> Fault {
+        let position = self.position(span.start);
+        let line = self.text[self.lines[position.line - 1]..].split('\n');
+        let line = first(line).trim_end();
+        // Tabs would shift the underline, so they are shown as one blank.
+        let shown: String = line
+            .chars()
+            .map(|c| if c.is_control() { ' ' } else { c })
+            .collect();
+        let start = floor(&self.text, span.start);
+        let end = floor(&self.text, span.end.max(start));
+        let marked = first(self.text[start..end].split('\n')).trim_end();
+        let excerpt = Excerpt {
+            text: shown,
+            length: marked.chars().count().max(1),
+        };
+        Fault {
+            file: self.file.clone().into_owned(),
+            position: Some(position),
+            kind,
+            excerpt: Some(excerpt),
+        }
+    }
+
+    fn position(&self, offset: usize) -> Position {
+        let offset = floor(&self.text, offset);
+        let line = self.lines.partition_point(|start| *start <= offset);
+        Position {
+            line,
+            column: self.text[self.lines[line - 1]..offset].chars().count() + 1,
+        }
     }
 }
 
-fn position(text: &str, offset: usize) -> Position {
-    let before = &text[..floor(text, offset)];
-    let line_start = before.rfind('\n').map_or(0, |end| end + 1);
-    Position {
-        line: before.matches('\n').count() + 1,
-        column: before[line_start..].chars().count() + 1,
-    }
+fn first<'t>(mut lines: impl Iterator<Item = &'t str>) -> &'t str {
+    lines.next().unwrap_or("")
 }
 
 /// The last character boundary at or before `offset`.

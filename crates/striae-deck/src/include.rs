@@ -27,47 +27,88 @@ struct Wanted {
     span: Span,
     name: String,
     path: PathBuf,
+    /// The deck and the files by way of which it is included, each with its name in messages.
+    over: Vec<(PathBuf, String)>,
 }
 
 /// Texts of all files that a text includes, behind blanks that put their spans after those
-/// of what comes before.
-pub(crate) fn texts(text: &str, base: &Path, faults: &mut FaultList<'_>) -> Vec<String> {
+/// of what comes before; `deck` is the file of the text, if it has one.
+pub(crate) fn texts(
+    text: &str,
+    base: &Path,
+    deck: Option<&Path>,
+    faults: &mut FaultList<'_>,
+) -> Vec<String> {
     let mut found = Vec::new();
     let mut known: Vec<PathBuf> = Vec::new();
-    let mut wanted = named(text, base);
-    while let Some(Wanted { span, name, path }) = wanted.pop() {
-        let full = path.canonicalize().unwrap_or_else(|_| path.clone());
-        let refused = match known.contains(&full) {
-            true => Some("it is already included".to_owned()),
-            false if known.len() == MOST => Some(format!("{MOST} files are already included")),
-            false => None,
-        };
-        let read = match refused {
+    let deck = deck.map(|path| (identity(path), path.display().to_string()));
+    let mut wanted = named(text, base, &Vec::from_iter(deck));
+    while let Some(one) = wanted.pop() {
+        let full = identity(&one.path);
+        let read = match refusal(&full, &one.over, &known) {
             Some(cause) => Err(cause),
-            None => std::fs::read_to_string(&path).map_err(|cause| cause.to_string()),
+            None => content(&one.path),
         };
         match read {
             Ok(text) => {
-                let start = faults.include(path.display().to_string(), text.clone());
+                let shown = one.path.display().to_string();
+                let start = faults.include(shown.clone(), text.clone());
                 let padded = " ".repeat(start) + &text;
-                wanted.extend(named(&padded, path.parent().unwrap_or(base)));
+                let mut over = one.over;
+                over.push((full.clone(), shown));
+                wanted.extend(named(&padded, one.path.parent().unwrap_or(base), &over));
                 known.push(full);
                 found.push(padded);
             }
-            Err(cause) => faults.push(&span, FaultKind::Include { file: name, cause }),
+            Err(cause) => faults.push(
+                &one.span,
+                FaultKind::Include {
+                    file: one.name,
+                    cause,
+                },
+            ),
         }
     }
     found
 }
 
-/// Files that a text includes, the first one last.
-fn named(text: &str, base: &Path) -> Vec<Wanted> {
+/// Reason not to include a file, if there is one.
+fn refusal(full: &Path, over: &[(PathBuf, String)], known: &[PathBuf]) -> Option<String> {
+    if let Some(at) = over.iter().position(|(path, _)| path == full) {
+        let between = over[at + 1..].iter().map(|(_, name)| format!("`{name}`"));
+        let between: Vec<String> = between.collect();
+        return Some(match between.is_empty() {
+            true => "it includes itself".to_owned(),
+            false => format!("it includes itself by way of {}", between.join(", ")),
+        });
+    }
+    match known.iter().any(|path| path == full) {
+        true => Some("it is already included".to_owned()),
+        false if known.len() == MOST => Some(format!("{MOST} files are already included")),
+        false => None,
+    }
+}
+
+/// Canonical path, equal for all paths to one file.
+fn identity(path: &Path) -> PathBuf {
+    path.canonicalize().unwrap_or_else(|_| path.to_owned())
+}
+
+/// The text of a file.
+fn content(path: &Path) -> Result<String, String> {
+    let bytes = striae_meshfile::content(path).map_err(|cause| cause.to_string())?;
+    String::from_utf8(bytes).map_err(|_| "it is not valid UTF-8; save it as text in UTF-8".into())
+}
+
+/// Files that a text includes, the first one last; `over` are the files on the way to the text.
+fn named(text: &str, base: &Path, over: &[(PathBuf, String)]) -> Vec<Wanted> {
     let (tree, _) = DeTable::parse_recoverable(text);
     let one = |value: &Spanned<DeValue<'_>>| match value.get_ref() {
         DeValue::String(name) => Some(Wanted {
             span: value.span(),
             name: name.to_string(),
             path: base.join(&**name),
+            over: over.to_vec(),
         }),
         _ => None,
     };

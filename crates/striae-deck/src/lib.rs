@@ -170,7 +170,7 @@ impl<'r> Reader<'r> {
     /// All faults of the deck; one without position if the file cannot be read.
     pub fn read(&self, path: &Path) -> Result<Deck, Faults> {
         let (text, file, base) = text_of(path)?;
-        self.parse(&text, &file, base)
+        self.deck(&text, &file, base, Some(path))
     }
 
     /// Reads parameters of a deck in a file, and other numbers of it by their paths.
@@ -180,7 +180,7 @@ impl<'r> Reader<'r> {
     pub fn numbers(&self, path: &Path, names: &[String]) -> Result<Vec<f64>, Faults> {
         let (text, file, base) = text_of(path)?;
         let mut faults = FaultList::new(&file, &text, self.laws);
-        let included = include::texts(&text, base, &mut faults);
+        let included = include::texts(&text, base, Some(path), &mut faults);
         let found = computed(
             &text,
             &included,
@@ -204,8 +204,19 @@ impl<'r> Reader<'r> {
     /// # Errors
     /// All faults of the deck.
     pub fn parse(&self, text: &str, file: &str, base: &Path) -> Result<Deck, Faults> {
+        self.deck(text, file, base, None)
+    }
+
+    /// Reads a deck from its text, which is the content of `path` if it is one of a file.
+    fn deck(
+        &self,
+        text: &str,
+        file: &str,
+        base: &Path,
+        path: Option<&Path>,
+    ) -> Result<Deck, Faults> {
         let mut faults = FaultList::new(file, text, self.laws);
-        let included = include::texts(text, base, &mut faults);
+        let included = include::texts(text, base, path, &mut faults);
         let deck = simulation(text, &included, self.settings, &mut faults)
             .and_then(|raw| lower::deck(&raw, base, &mut faults));
         match deck {
@@ -221,7 +232,8 @@ impl<'r> Reader<'r> {
 /// The text of a file, its name in messages, and the folder that paths in it are relative to.
 fn text_of(path: &Path) -> Result<(String, String, &Path), Faults> {
     let file = path.display().to_string();
-    let bytes = std::fs::read(path).map_err(|cause| Faults::unreadable(&file, &cause))?;
+    let bytes =
+        striae_meshfile::content(path).map_err(|cause| Faults::unreadable(&file, &cause))?;
     let text = String::from_utf8(bytes).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
         Faults::no_text(&file, error.as_bytes(), valid)

@@ -35,13 +35,13 @@ impl Names {
             };
             match first.get(name.as_str()) {
                 Some(earlier) => {
-                    let line = faults.line(earlier);
+                    let place = faults.seen_from(earlier, span);
                     faults.push(
                         span,
                         FaultKind::DuplicateName {
                             kind,
                             name: name.clone(),
-                            line,
+                            place,
                         },
                     );
                 }

@@ -7,6 +7,7 @@
 
 use std::{fmt, str::FromStr};
 
+use striae_declared::shown;
 use striae_model::nearest;
 use toml::de::{DeTable, DeValue};
 
@@ -20,8 +21,6 @@ use crate::{
 
 /// Name of the table of parameters.
 pub(crate) const TABLE: &str = "parameters";
-/// Magnitudes that are written without an exponent.
-const PLAIN: std::ops::Range<f64> = 1e-5..1e15;
 
 /// A number of a deck that is set from outside: `E=2e6`.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,10 +59,7 @@ impl Setting {
 impl fmt::Display for Setting {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { name, value } = self;
-        match *value == 0.0 || PLAIN.contains(&value.abs()) {
-            true => write!(f, "{name}={value}"),
-            false => write!(f, "{name}={value:e}"),
-        }
+        write!(f, "{name}={}", shown(*value))
     }
 }
 
@@ -108,7 +104,7 @@ pub(crate) fn note(settings: &[Setting]) -> Option<String> {
     let paths = settings.iter();
     let paths: Vec<String> = paths
         .filter(|setting| setting.parameter().is_none())
-        .map(|Setting { name, value }| format!("{name} = {value}"))
+        .map(|Setting { name, value }| format!("{name} = {}", shown(*value)))
         .collect();
     (!paths.is_empty()).then(|| format!("set: {}", paths.join(", ")))
 }

@@ -13,11 +13,37 @@ use striae_mesh::Vec3;
 use striae_model::nearest;
 use toml::de::DeValue;
 
-/// A text that is not empty.
+/// A name, or another text of one line that is not empty.
+///
+/// Tables of results have names in their first line, so that a line break would part it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Text(pub(crate) String);
 
 impl Read for Text {
+    fn read(value: &Value<'_>, place: &Place, faults: &mut FaultList<'_>) -> Option<Self> {
+        let Prose(text) = Prose::read(value, place, faults)?;
+        if text.contains(char::is_control) {
+            let kind = FaultKind::Unexpected {
+                place: place.to_string(),
+                expected: "one line of printable characters".to_owned(),
+                found: described(value.get_ref()),
+            };
+            faults.push(&value.span(), kind);
+            return None;
+        }
+        Some(Self(text))
+    }
+
+    fn form() -> Form {
+        Form::Text
+    }
+}
+
+/// A text of any number of lines that is not empty.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Prose(pub(crate) String);
+
+impl Read for Prose {
     fn read(value: &Value<'_>, place: &Place, faults: &mut FaultList<'_>) -> Option<Self> {
         match value.get_ref() {
             DeValue::String(text) if !text.trim().is_empty() => Some(Self(text.to_string())),

@@ -289,6 +289,26 @@ fn meshes() {
         ],
     );
     misstated(
+        "mesh too large once its hexahedra are divided",
+        &[(
+            "divisions = [4, 4, 2]",
+            "divisions = [150, 150, 150], cells = \"tetrahedra\"",
+        )],
+        &[
+            "10:8: the mesh of body `lower` cannot be made: the mesh would have 20250000 elements, but the limit is 20000000",
+        ],
+    );
+    misstated(
+        "lengths of which volumes are no numbers",
+        &[(
+            "size = [1, 1, 0.5], divisions = [4, 4, 2]",
+            "size = [1e300, 1, 0.5], divisions = [4, 4, 2]",
+        )],
+        &[
+            "10:8: the mesh of body `lower` cannot be made: size is 1e300, but it must be at least 1e-100 and at most 1e100",
+        ],
+    );
+    misstated(
         "sides that cross",
         &[(
             "divisions = [4, 4, 2]",
@@ -321,6 +341,17 @@ fn meshes() {
 }
 
 #[test]
+fn increments() {
+    for stated in ["{ initial = 1e-18, largest = 1e-18 }", "20000000"] {
+        misstated(
+            "more increments than any run makes",
+            &[("{ initial = 0.1, smallest = 1e-3, largest = 0.2 }", stated)],
+            &["29:14: step `press` would have more than 1e7 increments; take fewer or larger ones"],
+        );
+    }
+}
+
+#[test]
 fn names() {
     misstated(
         "two bodies of one name",
@@ -338,6 +369,16 @@ fn names() {
         &[(r#"name = "slide""#, r#"name = "press""#)],
         &["37:8: step `press` is already defined in line 27"],
     );
+    for told in ["pre\\nss", "\\tpress", "press\\u0000"] {
+        let found = format!(
+            "`name` in [[step]] must be one line of printable characters, but is the text \"{told}\""
+        );
+        misstated(
+            "a name with control characters",
+            &[("name = \"press\"", &format!("name = \"{told}\""))],
+            &[&format!("27:8: {}", found.replace("u0000", "0"))],
+        );
+    }
     misstated(
         "unknown material",
         &[(

@@ -552,6 +552,7 @@ fn elements_turned_inside_out_are_named() {
         said[0].contains("turned inside out") && said[0].contains("element "),
         "{said:?}"
     );
+    assert!(said[0].contains("none without `mesh_rotation`"), "{said:?}");
 }
 
 #[test]

@@ -135,6 +135,10 @@ fn paths_that_lead_to_no_number_are_refused_with_what_is_there() {
         ),
         ("sptep.x=1", "the deck has `body`, `material`, `pair`,"),
         (
+            "step.press.duration=2",
+            "`step.press` has `displacement`, `name`; a number that the deck leaves to its default must be stated there first",
+        ),
+        (
             "body.block.mesh.size.3=1",
             "`body.block.mesh.size` has `0`, `1`, `2`",
         ),
@@ -319,7 +323,26 @@ fn included_files_count_as_if_they_stood_in_the_deck() {
     assert!(found.contains(words), "{found}");
     write("parts.toml", "include = \"more/shared.toml\"");
     let found = told(read(&path));
+    let words =
+        "parts.toml:1:11: `more/shared.toml` cannot be included: it includes itself by way of";
+    assert!(found.contains(words), "{found}");
+    write("parts.toml", "include = \"parts.toml\"");
+    let found = told(read(&path));
+    assert!(found.contains("included: it includes itself\n"), "{found}");
+    write("parts.toml", "include = \"deck.toml\"");
+    let found = told(read(&path));
+    let words = "`deck.toml` cannot be included: it includes itself by way of `";
+    assert!(found.contains(words), "{found}");
+    assert!(!found.contains("already"), "{found}");
+    write("parts.toml", "");
+    let twice = deck.replace("shared.toml\"", "shared.toml\", \"parts.toml\"");
+    write("deck.toml", &twice);
+    let found = told(read(&path));
     assert!(found.contains("it is already included"), "{found}");
+    write("parts.toml", "\u{feff}[[body]]\nname = \"block\"\n");
+    write("deck.toml", &deck);
+    let found = told(read(&path));
+    assert!(found.contains("parts.toml`, line 2"), "{found}");
     write("deck.toml", &deck.replace("more/shared", "none"));
     let found = told(read(&path));
     assert!(

@@ -470,3 +470,20 @@ fn sets_of_wrong_numbers() {
         misread("set", &[("divisions = [4, 4, 2] }", &sets)], &[message]);
     }
 }
+
+#[test]
+fn of_very_many_faults_the_first_are_shown() {
+    for repeated in ["[[body]]\n", "[[pair]]\n"] {
+        let text = "title = \"many\"\n".to_owned() + &repeated.repeat(5000);
+        let faults = striae_deck::parse(&text, "deck.toml", std::path::Path::new(""));
+        let faults = faults.unwrap_err();
+        assert!(faults.iter().len() > 5000);
+        let told = faults.to_string();
+        let end = format!(
+            "{} faults, of which the first 50 are shown",
+            faults.iter().len()
+        );
+        assert!(told.ends_with(&end), "{}", &told[told.len() - 80..]);
+        assert_eq!(told.matches("deck.toml:").count(), 50);
+    }
+}

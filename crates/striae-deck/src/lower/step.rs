@@ -5,13 +5,15 @@ use super::{
     place::{ConditionSpans, StepSpans},
     rigid,
 };
-use crate::{faults::FaultList, names::Names, raw, read::At};
+use crate::{fault::FaultKind, faults::FaultList, names::Names, raw, read::At};
 use striae_law::friction::Friction;
 use striae_model::{Known, equal_increments};
 use striae_solve::model::{Increments, PairId, Step};
 
 const INITIAL: f64 = 0.1;
 const SMALLEST_OVER_INITIAL: f64 = 1e-3;
+/// Increments of a step that are admitted: at a hundred in a second, more than a day of time.
+const MOST_INCREMENTS: f64 = 1e7;
 
 /// A step as far as it is known, and where its parts are written.
 pub(super) struct LoweredStep {
@@ -68,6 +70,9 @@ fn lower_step(
         && rigid_motions.whole()
         && frictions.whole();
     let increments = raw.increments.as_ref();
+    if let Some(increments) = increments {
+        check_number(increments, name, faults);
+    }
     LoweredStep {
         known: known(whole),
         displacements: known(displacements.whole()),
@@ -105,6 +110,18 @@ fn lower_step(
             rigid_motions: rigid_motions.items,
             frictions: frictions.items,
         },
+    }
+}
+
+/// Notes increments of which there would be more than a run can make.
+fn check_number(raw: &At<raw::Increments>, step: &str, faults: &mut FaultList<'_>) {
+    // Rounded, as the limit itself is admitted.
+    if (1.0 / sizes(&raw.value).largest).round() > MOST_INCREMENTS {
+        let kind = FaultKind::Increments {
+            step: step.to_owned(),
+            most: MOST_INCREMENTS,
+        };
+        faults.push(&raw.span, kind);
     }
 }
 

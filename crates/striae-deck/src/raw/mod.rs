@@ -23,13 +23,13 @@ pub(crate) use {
     sets::*, settings::*, spring::*, step::*, texture::*,
 };
 
-use super::value::{NamedNumbers, OneOrMore, Text};
+use super::value::{NamedNumbers, OneOrMore, Prose};
 
 table! {
     /// A whole simulation. All quantities are in one consistent system of units of your choice.
     Simulation {
         /// Title: the subject of the simulation in one line.
-        required title: Text,
+        required title: Prose,
         /// Named numbers. Any number of the deck may be a text such as `"= 2*E/L^2"`, an expression
         /// of them, with `+ - * / ^`, parentheses, `pi`, `sqrt`, `abs`, `exp`, `ln`, `log10`,
         /// `min`, `max`, `round`, `floor`, `ceil` and, in degrees, `sin`, `cos`, `tan`, `asin`,

@@ -8,7 +8,7 @@ use crate::{
     faults::FaultList,
     form::Form,
     read::{At, Place, Read, Value, read_table, unexpected},
-    value::{Count, Fraction, Number, Positive, Text, Varying, Whole},
+    value::{Count, Fraction, Number, Positive, Prose, Text, Varying, Whole},
 };
 use toml::de::DeValue;
 
@@ -61,7 +61,7 @@ table! {
     /// A function of time.
     CourseFunction {
         /// A text such as `"sin(2*pi*t)"`, with angles in radians. `t` is the abscissa of the curve.
-        required function: Text,
+        required function: Prose,
     }
 }
 
@@ -85,7 +85,7 @@ table! {
         /// Implicit dynamics; an empty table selects the defaults. Default: a sequence of
         /// equilibria without inertia.
         optional dynamics: Dynamics,
-        /// Division of the step: a number of equal increments, or their sizes. Default: 10.
+        /// Division of the step: a number of equal increments, at most 1e7, or their sizes. Default: 10.
         optional increments: Increments,
         /// Velocities of whole bodies at the start of the step. Default: their present velocities.
         optional velocity: Vec<At<Velocity>>,
@@ -199,7 +199,7 @@ table! {
         optional initial: Fraction,
         /// Smallest increment, below which the run ends. Default: a thousandth of the first.
         optional smallest: Fraction,
-        /// Largest increment. Default: the first.
+        /// Largest increment, at least 1e-7. Default: the first.
         optional largest: Fraction,
     }
 }

@@ -21,13 +21,13 @@ pub(super) fn points(
         line,
         cause,
     };
-    let text = std::fs::read(base.join(file))
+    let text = striae_meshfile::content(&base.join(file))
         .map_err(|cause| fault(None, format!("it cannot be read: {cause}")))?;
     let text = String::from_utf8(text).map_err(|_| {
         let cause = "it is no text in UTF-8; save it as comma-separated text";
         fault(None, cause.to_owned())
     })?;
-    let lines = text.trim_start_matches('\u{feff}').lines().enumerate();
+    let lines = text.lines().enumerate();
     let mut lines = lines
         .map(|(at, line)| (at + 1, line.split('#').next().unwrap_or("")))
         .skip(skipped)
