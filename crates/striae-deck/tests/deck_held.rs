@@ -304,7 +304,6 @@ fn faces_that_cannot_touch_are_told_before_overlap() {
                 "b = { body = \"upper\", facets = \"zmin\" }",
                 "b = { rigid = \"floor\" }",
             ],
-            [LOWER, ""],
         ],
         &[
             "faces away from that of `floor`",

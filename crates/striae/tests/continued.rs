@@ -81,6 +81,8 @@ fn faults_of_further_steps_count_from_the_first_step() {
 #[test]
 fn release_all_frees_what_is_prescribed() {
     let lift = step("lift").release_all("block", "grip");
+    // A released block has to be pressed, or nothing holds it.
+    let lift = lift.pressure("block", "zmax", 10.0);
     let model = extended(begun(), vec![slide(), lift]).unwrap();
     assert_eq!(model.steps[2].releases[0].components, [true; 3]);
     let only_x = step("hold").displace("block", "zmin", [Some(0.0), None, None]);

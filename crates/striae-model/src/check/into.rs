@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use striae_mesh::{Face, Mesh, NodeId, Vec3};
 use striae_solve::{
     model::{ContactSurface, Model, Pair, RigidId, RigidShape},
-    plan::{StepPlan, plans},
+    plan::{Prescription, StepPlan, plans},
 };
 
 use crate::{
@@ -106,11 +106,10 @@ impl<'m> Into<'m> {
             for &axis in &axes {
                 let how = plan.displacements.get(&(self.body, node.index(), axis))?;
                 // What is held has come as far in an earlier step.
-                let end = how.at([0.0, f64::NAN], &x, end);
-                way += end * self.normal[axis];
-            }
-            if way.is_nan() {
-                return None;
+                if matches!(how, Prescription::Hold) {
+                    return None;
+                }
+                way += how.at([0.0; 2], &x, end) * self.normal[axis];
             }
             let gap = (x - self.point - moved).dot(&self.normal) + way;
             (way < 0.0 || moved.dot(&self.normal) > 0.0).then_some(-gap)

@@ -132,7 +132,13 @@ fn a_density_from_another_system_of_units() {
 #[test]
 fn the_wrong_side_of_a_plane() {
     let away = ["normal = [0, 0, 1]", "normal = [0, 0, -1]"];
-    assert_warned(&[away], Topic::Facing, "faces away");
+    let refused = refusal(&[away]);
+    for words in [
+        "faces away from that of `floor`",
+        "Reverse the normal of `floor`",
+    ] {
+        assert!(refused.contains(words), "{refused}");
+    }
     let behind = [
         PAD,
         "origin = [0, 0, 0.5], size = [1, 1, 1], divisions = [3, 3, 3]",
@@ -321,13 +327,11 @@ fn an_overlap() {
 #[test]
 fn a_pair_that_cannot_meet() {
     let top = [r#"facets = "zmin""#, r#"facets = "zmax""#];
-    let advice = advice(&[top]);
-    let topics: Vec<Topic> = advice
-        .warnings
-        .iter()
-        .map(|warning| warning.topic)
-        .collect();
-    assert_eq!(topics, [Topic::Facing, Topic::NeverMeets]);
+    let refused = refusal(&[top]);
+    assert!(
+        refused.contains("faces away from that of `floor`"),
+        "{refused}"
+    );
 }
 
 #[test]

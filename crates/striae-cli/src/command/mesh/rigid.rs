@@ -115,6 +115,9 @@ fn without_area(surface: &RigidSurfaceMesh) -> Vec<String> {
     lines
 }
 
+/// A facet at an edge, and whether it goes from the lower node to the higher one.
+type Joined = (usize, bool);
+
 /// Edges of facets, by how they join them.
 struct Edges {
     /// Number of edges of one facet.
@@ -134,7 +137,7 @@ struct Found {
 
 impl Edges {
     fn of(facets: &[[NodeId; 4]]) -> Self {
-        let mut all: BTreeMap<[NodeId; 2], Vec<(usize, bool)>> = BTreeMap::new();
+        let mut all: BTreeMap<[NodeId; 2], Vec<Joined>> = BTreeMap::new();
         for (index, facet) in facets.iter().enumerate() {
             for corner in 0..4 {
                 let [from, to] = [facet[corner], facet[(corner + 1) % 4]];
@@ -144,7 +147,7 @@ impl Edges {
                 }
             }
         }
-        let found = |is_one: &dyn Fn(&[(usize, bool)]) -> bool| {
+        let found = |is_one: &dyn Fn(&[Joined]) -> bool| {
             let mut of_kind = all.iter().filter(|(_, of)| is_one(of));
             let (ends, of) = of_kind.next()?;
             Some(Found {
