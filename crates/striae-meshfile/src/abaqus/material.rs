@@ -1,9 +1,9 @@
 //! Material cards of an Abaqus file.
 //!
 //! The keywords below `*MATERIAL`, up to one that is no option of materials, state its options.
-//! Those of [`cards`](crate::Card) are read. Those of heat, and others that leave stresses as they
-//! are without temperatures, are passed over and told as unused. Any other makes the material one
-//! that cannot be used, and is named. Constants may stand for one temperature only.
+//! Options of [`cards`](crate::Card) are read. Options of heat, and others that leave stresses as
+//! they are without temperatures, are passed over and told as unused. Any other makes the material
+//! one that cannot be used, and is named. Constants may stand for one temperature only.
 //!
 //! Longer than other files, as it lists the options that materials may have. Source: Abaqus
 //! keywords reference guide.

@@ -25,9 +25,9 @@ pub(super) fn faults(model: &Model) -> Vec<Fault> {
     let pairs = model.pairs.iter();
     pairs
         .filter_map(|pair| {
-            let mut into = Into::new(model, pair)?;
+            let mut side = MovedSide::new(model, pair)?;
             plans.iter().enumerate().find_map(|(index, plan)| {
-                let depth = into.depth(plan)?;
+                let depth = side.depth(plan)?;
                 let kind = FaultKind::PrescribedInto {
                     pair: pair.name.clone(),
                     step: model.steps[index].name.clone(),
@@ -41,7 +41,7 @@ pub(super) fn faults(model: &Model) -> Vec<Fault> {
 }
 
 /// A side that may be moved into a plane.
-struct Into<'m> {
+struct MovedSide<'m> {
     mesh: &'m Mesh,
     body: usize,
     nodes: BTreeSet<NodeId>,
@@ -52,7 +52,7 @@ struct Into<'m> {
     moved: Option<Vec3>,
 }
 
-impl<'m> Into<'m> {
+impl<'m> MovedSide<'m> {
     fn new(model: &'m Model, pair: &'m Pair) -> Option<Self> {
         let (ContactSurface::Deformable { body, faces }, ContactSurface::Rigid(rigid)) =
             (&pair.a, &pair.b)

@@ -21,7 +21,7 @@ use striae_solve::{
         Body, BodyId, CavityContent, ContactSurface, LoadExtent, LoadKind, Model, Moment, Mover,
         Procedure, RigidId, Step,
     },
-    plan::{StepPlan, plans},
+    plan::{Prescription, StepPlan, plans},
 };
 
 use crate::{
@@ -53,7 +53,14 @@ pub(super) fn faults(model: &Model) -> Vec<Fault> {
     let movers = pieces.chain(rigid);
     movers
         .filter_map(|mover| {
-            let mut steps = model.steps.iter().zip(&plans).enumerate();
+            // Directions of contact are those of the meshes: what has turned is not judged any more.
+            let steps = model.steps.iter().zip(&plans).enumerate();
+            let mut steps = steps.take_while(|(index, _)| {
+                let before = model.steps.iter().zip(&plans).take(*index);
+                !before
+                    .into_iter()
+                    .any(|(step, plan)| mover.turns(model, step, plan))
+            });
             steps.find_map(|(index, (step, plan))| {
                 let kind = mover.away(model, step, plan)?;
                 let path = Path::part("steps", index);
@@ -173,6 +180,28 @@ impl<'m> Pushed<'m> {
             load,
             pairs: pairs.map(|(at, _)| model.pairs[*at].name.clone()).collect(),
         })
+    }
+
+    /// True where a step may turn it, or a rigid body that it touches.
+    fn turns(&self, model: &Model, step: &Step, plan: &StepPlan) -> bool {
+        let is_turned = |rigid: RigidId| {
+            let angle = |how: &Prescription| how.at([0.0; 2], &Vec3::zeros(), plan.end());
+            let mut turns = plan.rigid[rigid.0][3..].iter();
+            turns.any(|turn| turn.as_ref().is_none_or(|how| angle(how) != 0.0))
+        };
+        let is_own = match self.of {
+            Of::Piece { body, .. } => {
+                let mut conditions = step.displacements.iter();
+                conditions.any(|of| of.body == body && of.varies())
+            }
+            Of::Rigid(rigid) => is_turned(rigid),
+        };
+        let mut pairs = self.pairs.iter().map(|(pair, _)| &model.pairs[*pair]);
+        is_own
+            || pairs.any(|pair| {
+                let mut sides = pair.surfaces().into_iter();
+                sides.any(|side| matches!(side, ContactSurface::Rigid(of) if is_turned(*of)))
+            })
     }
 
     /// True where inertia resists.

@@ -224,6 +224,13 @@ fn loads_that_pull_a_body_off_or_end_in_any_step() {
     assert!(told("").is_none() && told(&pressure("5")).is_none());
     // What is unloaded is held up to the end.
     assert!(told(&pressure("0")).is_none());
+    // After a turn nobody knows which way contact pushes.
+    let turned = |rotation: &str| {
+        let turn = format!("[[step.rigid]]\nsurface = \"floor\"\nrotation = {rotation}");
+        let last = format!("[[step]]\nname = \"last\"\n{}", pressure("-10"));
+        told(&format!("{}\n{turn}\n{last}", pressure("5")))
+    };
+    assert!(turned("[0, 0, 0]").is_some() && turned("[0, 180, 0]").is_none());
     // Held in the first step, and then by nothing.
     let release = "[[step]]\nname = \"later\"\nrelease = [{ body = \"pad\", nodes = \"zmax\" }]";
     let alone = refusal(&[[PRESSED, &format!("{PRESSED}\n{release}")]]);

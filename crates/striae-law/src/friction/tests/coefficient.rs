@@ -1,6 +1,6 @@
 //! Coefficient and cap.
 
-use crate::friction::Friction;
+use crate::friction::{Friction, PressureDependence, SlipRule};
 use num_dual::Dual64;
 
 #[test]
@@ -40,4 +40,27 @@ fn open_contact_has_no_cap() {
     let friction = Friction::coulomb(0.5).unwrap();
     assert_eq!(friction.cap(-1.0, 0.0), 0.0);
     assert_eq!(friction.cap(0.0, 0.0), 0.0);
+}
+
+#[test]
+fn no_direction_pressure_or_slip_rate_exceeds_the_largest_coefficient() {
+    let coulomb = || Friction::coulomb(0.3).unwrap();
+    let table = PressureDependence::table(&[1.0, 2.0], &[2.0, 0.5]).unwrap();
+    for (friction, exact) in [
+        (coulomb(), 0.3),
+        (coulomb().with_decay(0.5, 2.0).unwrap(), 0.3),
+        (coulomb().with_decay(1.5, 2.0).unwrap(), 0.45),
+        (coulomb().with_pressure(table), 0.6),
+    ] {
+        let largest = friction.largest_coefficient();
+        assert!((largest - exact).abs() < 1e-12, "{largest}");
+        for p in [1e-3, 0.5, 1.0, 1.5, 3.0] {
+            for v in [0.0, 0.1, 10.0] {
+                let cap = friction.cap(p, v);
+                assert!(cap <= largest * p * (1.0 + 1e-12), "{p} {v}: {cap}");
+            }
+        }
+    }
+    let orthotropic = Friction::orthotropic(0.2, 0.7, SlipRule::Associated).unwrap();
+    assert!((orthotropic.largest_coefficient() - 0.7).abs() < 1e-4);
 }
