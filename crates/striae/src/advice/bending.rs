@@ -48,11 +48,11 @@ pub(super) fn look(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) {
         }
         let name = &body.name;
         let text = format!(
-            "body `{name}` is {} thick and {} long; in bending its elements, {} long, are about {:.1} times too stiff",
+            "body `{name}` is {} thick and {} long; in bending its elements, {} long, are about {} times too stiff",
             significant(frame.lengths[0], 4),
             significant(frame.lengths[2], 4),
             significant(frame.element(&body.mesh), 4),
-            1.0 + share
+            significant(1.0 + share, 3)
         );
         match share > LIMITS[1] {
             true => advice.warn(

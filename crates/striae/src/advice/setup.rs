@@ -56,9 +56,9 @@ fn displacements(model: &Model, id: BodyId, body: &Body, advice: &mut Advice) {
     };
     let name = &body.name;
     let text = format!(
-        "body `{name}` is {size} long, and step `{}` displaces nodes of it by {displacement}, {:.0} times as much",
+        "body `{name}` is {size} long, and step `{}` displaces nodes of it by {displacement}, {} times as much",
         step.name,
-        displacement / size,
+        significant(displacement / size, 2),
         size = significant(size, 4),
         displacement = significant(displacement, 4)
     );
