@@ -15,7 +15,7 @@ use crate::{
     begin::begin,
     freedom::{Bridged, Friction, free_motion, free_motion_in, slipping, worth_stabilising},
     initial::other_name,
-    model::{PairId, Procedure},
+    model::{Model, PairId, Procedure},
     newton::{Increment, IterationObserver, Memory, Workspace, advance, assembled_at},
     outcome::{CutBack, Ending, Remedy},
     problem::Problem,
@@ -511,6 +511,20 @@ fn at_limit(context: &StepContext, state: &State, reached: f64) -> Option<CutBac
 fn count(nodes: &[Vec<NodeResult>; 2], status: Status) -> usize {
     let nodes = nodes.iter().flatten();
     nodes.filter(|node| node.status == status).count()
+}
+
+/// Returns the fewest increments that a step takes: those of a run in which all are easy.
+pub fn fewest_increments(model: &Model, step: usize) -> f64 {
+    let largest = model.steps[step].increments.largest;
+    let mut size = first_increment(model, step);
+    let (mut done, mut count) = (0.0, 0.0);
+    while done < 1.0 && size < largest {
+        done = target(done, size);
+        size = (size * GROWTH).min(largest);
+        count += 1.0;
+    }
+    // A quotient of round numbers is one more only by its round-off.
+    count + ((1.0 - done) / largest - 1e-9).ceil()
 }
 
 /// End of an increment of about the given size; the last one takes what is left.

@@ -18,6 +18,7 @@ use striae_mesh::significant;
 use striae_model::{Backend, ContactSurface, Model, PairId};
 use striae_output::available_bytes;
 use striae_solve::{
+    drive::fewest_increments,
     initial::{opposite, other_name},
     newton::{Analysis, Estimate, estimate},
     problem::Problem,
@@ -110,10 +111,8 @@ fn unknowns(model: &Model) -> usize {
 }
 
 fn increments(model: &Model) -> f64 {
-    let steps = model.steps.iter().map(|step| step.increments);
-    steps
-        .map(|of| (1.0 / of.initial.min(of.largest)).ceil())
-        .sum()
+    let steps = 0..model.steps.len();
+    steps.map(|step| fewest_increments(model, step)).sum()
 }
 
 /// Notes unknowns, memory and time.

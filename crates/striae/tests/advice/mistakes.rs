@@ -418,9 +418,32 @@ fn a_texture_along_the_normal() {
 }
 
 #[test]
+fn increments_that_grow_are_counted_as_they_grow() {
+    let noted = |stated: &str, words: &str| {
+        let notes = advice(&[[PRESSED, &format!("{PRESSED}\nincrements = {stated}")]]).notes;
+        assert!(
+            notes.iter().any(|note| note.text.contains(words)),
+            "{notes:?}"
+        );
+    };
+    noted("30", "at least 30 increments");
+    noted("{ initial = 0.1 }", "at least 10 increments");
+    // Twelve that sum to 0.001 (1.5^12 - 1)/0.5 = 0.2575, and eight of a tenth.
+    noted(
+        "{ initial = 1e-3, largest = 0.1 }",
+        "at least 20 increments",
+    );
+}
+
+#[test]
 fn displacements_beside_sizes() {
     let by = |way: &str| PRESSED.replace("-0.02", way);
     assert_warned(&[[PRESSED, &by("-50")]], Topic::Units, "50 times as much");
+    assert_warned(
+        &[[PRESSED, &by("-5e30")]],
+        Topic::Units,
+        "5e30 times as much",
+    );
     let slides = PRESSED.replace("x = 0", "x = 50");
     assert_eq!(advice(&[[PRESSED, &slides]]).warnings, []);
     assert_warned(
