@@ -149,7 +149,10 @@ class Controls {
 
   async drawColors(chosen) {
     byId("legend").hidden = !chosen;
-    if (!chosen) return this.view.color([], null);
+    if (!chosen) {
+      this.view.restrict([]);
+      return this.view.color([], null);
+    }
     const component = byId("component").value;
     const values = [];
     for (const [at, field] of chosen.on) values[at] = await viewed(field, component, this.time);
@@ -157,8 +160,17 @@ class Controls {
     const [low, high] = this.limits(extremes);
     const bands = byId("bands").checked;
     const colors = palette(chosen.name, low, high, chosen.kind);
+    this.view.restrict(await this.pressures(chosen));
     this.view.color(values, colors, bands);
     this.legend(chosen, component, extremes, colors, bands);
+  }
+
+  /** Pressures of the sides of pairs, by part, if the field is one of contact; gaps are seen beside it, too. */
+  async pressures(chosen) {
+    const known = chosen.kind === "contact" && chosen.name !== "gap" ? this.fields.get("contact/pressure") : null;
+    const pressures = [];
+    for (const [at, field] of known?.on ?? []) pressures[at] = (await components(field, this.time))?.[0];
+    return pressures;
   }
 
   /** Least and largest value in the files of what is shown, at this time or all. */

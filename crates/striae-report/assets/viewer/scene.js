@@ -35,7 +35,7 @@ class View {
     for (const [at, head] of heads.entries()) {
       const part = { head, at, visible: true };
       const [triangles, edges, rest] = [await indices(head.triangles, 3), await indices(head.edges, 2), await reals(head.rest)];
-      part.rest = rest;
+      Object.assign(part, { rest, triangles, edges });
       part.follows = head.follows ? await indices(head.follows[1], 1) : null;
       part.color = head.kind === "body" ? BODY_COLORS[at % BODY_COLORS.length] : RIGID_COLOR;
       part.places = new THREE.BufferAttribute(new Float32Array(rest), 3);
@@ -43,7 +43,7 @@ class View {
       const surface = new THREE.BufferGeometry();
       surface.setAttribute("position", part.places);
       surface.setAttribute("uv", part.colors);
-      surface.setIndex(new THREE.BufferAttribute(triangles, 1));
+      surface.setIndex(new THREE.BufferAttribute(triangles.slice(), 1));
       const contact = head.kind === "contact";
       part.material = new THREE.MeshLambertMaterial({
         flatShading: true, side: THREE.DoubleSide, polygonOffset: true,
@@ -54,7 +54,7 @@ class View {
       part.mesh.userData.part = part;
       const lines = new THREE.BufferGeometry();
       lines.setAttribute("position", part.places);
-      lines.setIndex(new THREE.BufferAttribute(edges, 1));
+      lines.setIndex(new THREE.BufferAttribute(edges.slice(), 1));
       part.ink = new THREE.LineBasicMaterial({ color: INK.edge(), transparent: true, opacity: 0.3 });
       part.lines = new THREE.LineSegments(lines, part.ink);
       part.lines.frustumCulled = false;
@@ -86,7 +86,7 @@ class View {
 
   /** Area of a part at rest. */
   area(part) {
-    const corners = part.mesh.geometry.index.array;
+    const corners = part.triangles;
     const place = (corner) => new THREE.Vector3().fromArray(part.rest, 3 * corner);
     let area = 0;
     for (let at = 0; at < corners.length; at += 3) {
@@ -151,6 +151,19 @@ class View {
       part.colors.needsUpdate = true;
     }
     this.recolored();
+  }
+
+  /** Leaves out where sides of pairs do not touch, by the pressures at their nodes; shows whole
+   * sides if none of those that are shown touches, or there are no pressures. */
+  restrict(pressures) {
+    const touches = (part) => pressures[part.at]?.some((pressure) => pressure > 0);
+    const restricted = this.parts.some((part) => part.visible && touches(part));
+    for (const part of this.parts.filter((part) => part.head.kind === "contact")) {
+      const pressed = restricted && pressures[part.at];
+      const [triangles, edges] = pressed ? touching(part, pressed) : [part.triangles, part.edges];
+      select(part.mesh.geometry, triangles);
+      select(part.lines.geometry, edges);
+    }
   }
 
   /** Materials after a change of colours, opacity or cut. */
@@ -288,6 +301,28 @@ class View {
     drawTriad(this.camera);
     this.canvas.dataset.frames = ++this.frames;
   }
+}
+
+/** Triangles of a part of which a corner is pressed, and the edges between their corners. */
+function touching({ triangles, edges }, pressed) {
+  const groups = (entries, size, keeps) => {
+    const kept = [];
+    for (let at = 0; at < entries.length; at += size) {
+      const group = entries.subarray(at, at + size);
+      if (keeps(group)) kept.push(...group);
+    }
+    return kept;
+  };
+  const kept = groups(triangles, 3, (corners) => corners.some((node) => pressed[node] > 0));
+  const nodes = new Set(kept);
+  return [kept, groups(edges, 2, (ends) => ends.every((node) => nodes.has(node)))];
+}
+
+/** Draws only some entries of the index of a geometry. */
+function select(geometry, entries) {
+  geometry.index.array.set(entries);
+  geometry.index.needsUpdate = true;
+  geometry.setDrawRange(0, entries.length);
 }
 
 let shapesOfArrow;
