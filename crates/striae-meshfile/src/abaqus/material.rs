@@ -215,7 +215,7 @@ fn card<'k>(
         }
         seen.push(name);
         match name {
-            "DENSITY" => density = Some(read_density(option)?),
+            "DENSITY" => density = read_density(option)?,
             "ELASTIC" | "HYPERELASTIC" if elasticity.is_some() => {
                 return Err(option.fault("one of *ELASTIC and *HYPERELASTIC"));
             }
@@ -250,10 +250,14 @@ fn card<'k>(
     })
 }
 
-fn read_density(option: &Keyword<'_>) -> Result<f64, MeshFileFault> {
+/// The density; none where it is zero, as in models for statics.
+fn read_density(option: &Keyword<'_>) -> Result<Option<f64>, MeshFileFault> {
     option.allow(&[])?;
     let [density] = constants::<1>(option)?;
-    positive(option, density, "a positive density")
+    match density == 0.0 {
+        true => Ok(None),
+        false => positive(option, density, "a positive density").map(Some),
+    }
 }
 
 fn elastic(option: &Keyword<'_>) -> Result<Elasticity, MeshFileFault> {
@@ -406,7 +410,9 @@ fn several(option: &Keyword<'_>, count: usize) -> Result<Vec<f64>, MeshFileFault
     if all.is_empty() {
         return Err(option.fault("constants below it"));
     }
-    if all.len() > count + 1 {
+    // Zeros behind the temperature are fields that the constants do not depend on.
+    let more = all.get(count + 1..).unwrap_or_default();
+    if more.iter().any(|value| *value != 0.0) {
         return Err(option.rows[0].fault("constants at one temperature"));
     }
     all.resize(count, 0.0);

@@ -52,6 +52,10 @@ fn cards_are_read_as_they_stand() {
             Elasticity::NeoHooke { c10: 0.4, d1: 0.02 },
         ),
         (
+            "*DENSITY\n0.,\n*HYPERELASTIC, NEO HOOKE\n0.4, 0.02, 0., 0., 0., 0.\n",
+            Elasticity::NeoHooke { c10: 0.4, d1: 0.02 },
+        ),
+        (
             "*HYPERELASTIC, MOONEY-RIVLIN\n0.3, 0.1, 0.02,\n",
             Elasticity::MooneyRivlin {
                 c10: 0.3,
