@@ -17,12 +17,19 @@ pub(super) struct LoadedFaces {
     /// Bodies by place with facet sets, by the line of the row; none where another row with the
     /// same value speaks for it.
     by_row: BTreeMap<usize, Vec<(usize, String)>>,
+    /// Lines of the rows of which some faces lie between elements.
+    inner: BTreeSet<usize>,
 }
 
 impl LoadedFaces {
     /// Bodies by place with the facet sets that a row loads; `None` where it is on no body.
     pub(super) fn of(&self, row: usize) -> Option<Vec<(usize, String)>> {
         self.by_row.get(&row).cloned()
+    }
+
+    /// Returns whether some faces of a row lie between elements, and others outside.
+    pub(super) fn has_inner(&self, row: usize) -> bool {
+        self.inner.contains(&row) && self.by_row.contains_key(&row)
     }
 }
 
@@ -65,7 +72,11 @@ impl Model<'_> {
                 for element in body.elements_of(row.words[0]) {
                     let sides = mesh.kind(element).faces_of_side(side);
                     let faces = sides.map(|side| Face { element, side });
-                    for face in faces.filter(|face| outside.contains(face)) {
+                    for face in faces {
+                        if !outside.contains(&face) {
+                            self.loaded_faces.inner.insert(row.line);
+                            continue;
+                        }
                         statements.entry(face).or_default().insert(statement);
                         first.entry(statement).or_insert(row.line);
                         self.loaded_faces.by_row.entry(row.line).or_default();

@@ -41,6 +41,20 @@ fn forces_of_one_node_in_a_step_add_and_later_steps_modify_them() {
 }
 
 #[test]
+fn forces_of_other_sets_at_the_same_nodes_are_listed() {
+    let first = with("*CLOAD\nPad-1.High, 3, -2.\n");
+    let later = |word: &str, op: &str| {
+        let second = format!("*STEP\n*STATIC\n*CLOAD{op}\n{word}, 3, -5.\n*END STEP\n");
+        converted(&model("", &(first.clone() + &second))).1
+    };
+    let said = ["*CLOAD of `node Pad-1.7`: its nodes keep the force that an earlier step states"];
+    assert_listed(&later("Pad-1.7", ""), &said);
+    for (word, op) in [("Pad-1.7", ", OP=NEW"), ("Pad-1.1", ""), ("Base-1.7", "")] {
+        assert_listed(&later(word, op), &[]);
+    }
+}
+
+#[test]
 fn forces_with_an_amplitude_follow_it_over_the_run() {
     let saw = "*AMPLITUDE, NAME=Saw\n0., 0., 1., 3., 2., 0.\n";
     let step = saw.to_owned()
@@ -114,6 +128,26 @@ Pad-1.All, HP, 1., 2., 3.\n*DSLOAD\nPad-1.Nothing, P, 1.\n";
         "*DSLOAD `Pad-1.Nothing, P, 1.`",
     ];
     assert_listed(&listed, &said);
+}
+
+#[test]
+fn pressures_between_elements_are_listed() {
+    let upper = "*NODE\n9, 0., 0., 2.\n10, 1., 0., 2.\n11, 1., 1., 2.\n12, 0., 1., 2.\n*ELEMENT, TYPE=C3D8, ELSET=All\n2, 5, 6, 7, 8, 9, 10, 11, 12\n";
+    let cube = "1, 1, 2, 3, 4, 5, 6, 7, 8\n";
+    let of = |word: &str| {
+        let model = model("", &with(&format!("*DLOAD\n{word}, P2, 1.\n")));
+        let model = model.replace(cube, &format!("{cube}{upper}"));
+        let (_, listed, deck) = converted(&model.replace("Cube\n0., 0., 1.", "Cube\n0., 0., 2."));
+        let faces = deck.model.steps[0].loads.first();
+        (listed, faces.map_or(0, |load| load.faces.len()))
+    };
+    let (listed, faces) = of("Pad-1.All");
+    let said = ["*DLOAD `Pad-1.All, P2, 1.`: pressures on faces between elements are left out"];
+    assert_listed(&listed, &said);
+    assert_eq!(faces, 1);
+    assert_listed(&of("Pad-1.2").0, &[]);
+    let said = ["*DLOAD `Pad-1.1, P2, 1.`, which is no outer face of a body"];
+    assert_listed(&of("Pad-1.1").0, &said);
 }
 
 #[test]
