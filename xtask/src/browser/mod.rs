@@ -13,7 +13,12 @@ mod chromium;
 mod picture;
 mod use_it;
 
-use std::{fs, path::PathBuf, process::Command, time::Instant};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    process::Command,
+    time::Instant,
+};
 
 use crate::{
     cargo,
@@ -42,7 +47,13 @@ pub fn report_test() -> Result<(), Fault> {
     fs::create_dir_all(&folder).map_err(unusable("target/report"))?;
     let folder = fs::canonicalize(&folder).map_err(unusable("target/report"))?;
     let mut browser = Chromium::start()?;
-    for (name, deck) in [("pad", PAD.deck()), ("blocks", BLOCKS.to_owned())] {
+    let everything = template(&program, &folder.join("everything"))?;
+    for (name, deck) in [
+        ("pad", PAD.deck()),
+        ("blocks", BLOCKS.to_owned()),
+        // Its skin would hide what touches below.
+        ("everything", everything),
+    ] {
         let path = folder.join(name).with_extension("toml");
         fs::write(&path, deck).map_err(unusable("a deck"))?;
         let results = folder.join(name);
@@ -68,6 +79,23 @@ pub fn report_test() -> Result<(), Fault> {
     }
     println!("reports tested in {:.0} s", started.elapsed().as_secs_f64());
     Ok(())
+}
+
+/// The deck of the template `pad`, in which all may touch.
+fn template(program: &Path, folder: &Path) -> Result<String, Fault> {
+    if folder.exists() {
+        fs::remove_dir_all(folder).map_err(unusable("an old deck"))?;
+    }
+    let made = Command::new(program)
+        .args(["new", "--template", "pad"])
+        .arg(folder)
+        .output()
+        .map_err(unusable("the program"))?;
+    if !made.status.success() {
+        let said = String::from_utf8_lossy(&made.stderr).into_owned();
+        return Err(Fault::Browser(said));
+    }
+    fs::read_to_string(folder.join("deck.toml")).map_err(unusable("a deck"))
 }
 
 fn unusable(what: &str) -> impl Fn(std::io::Error) -> Fault {
