@@ -52,7 +52,7 @@ fn cards_are_read_as_they_stand() {
             Elasticity::NeoHooke { c10: 0.4, d1: 0.02 },
         ),
         (
-            "*DENSITY\n0.,\n*HYPERELASTIC, NEO HOOKE\n0.4, 0.02, 0., 0., 0., 0.\n",
+            "*DENSITY\n0.,\n*HYPERELASTIC, NEO HOOKE\n0.4, 0.02, 20., 1., 0., 0.\n",
             Elasticity::NeoHooke { c10: 0.4, d1: 0.02 },
         ),
         (
