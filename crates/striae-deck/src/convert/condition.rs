@@ -93,8 +93,17 @@ impl<'a> Model<'a> {
                     };
                     let Some(target) = target else { continue };
                     let key = (target, component);
-                    let present = history.prescribed.get(&key).copied().unwrap_or(0.0);
                     let amplitude = keyword.parameter("AMPLITUDE");
+                    let present = history.present(&key, &self.bodies);
+                    // Ramps start from where the nodes are.
+                    let is_ramp = amplitude.is_none() && !is_velocity;
+                    let Some(present) = present.or(is_ramp.then_some(0.0)) else {
+                        let what = format!(
+                            "*BOUNDARY of `{word}`: its nodes have different displacements before, so this one has no start; state them by the sets of the step before"
+                        );
+                        self.list(row.line, what);
+                        continue;
+                    };
                     let found = match is_velocity {
                         true => self.travel(amplitude, period, [present, value]),
                         false => self.approach(amplitude, period, Over::Step, [present, value]),

@@ -228,6 +228,18 @@ impl<'a> Model<'a> {
             self.list(row.line, what);
             return;
         }
+        let [one, other] = [0, 1].map(|at| self.facets(row.words[at]));
+        if one
+            .iter()
+            .any(|(body, _)| other.iter().any(|(of, _)| of == body))
+        {
+            let what = format!(
+                "*TIE `{}`: both surfaces are of one body, and a deck ties two; give each part an *ELSET of its own, or merge their nodes",
+                row.words.join(", ")
+            );
+            self.list(row.line, what);
+            return;
+        }
         let within = within.map(|within| format!("within = {}\n", number(within)));
         let name = self.name("tie", &format!("{} on {}", row.words[0], row.words[1]));
         self.contact += &format!(

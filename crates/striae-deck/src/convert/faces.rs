@@ -8,8 +8,9 @@ use std::collections::{BTreeMap, BTreeSet, HashSet};
 use striae_mesh::Face;
 use striae_meshfile::Row;
 
-/// A row of `*DLOAD` that presses faces: lines of its keyword and its value.
-type Statement = (usize, u64);
+/// A pressure of `*DLOAD`: the line of its keyword, its value, and how many equal ones the keyword
+/// states for the face before.
+type Statement = (usize, u64, usize);
 
 /// Facet sets by the rows that load them.
 #[derive(Default)]
@@ -68,7 +69,6 @@ impl Model<'_> {
                 if !self.bodies_named(row.words[0]).contains(&at) {
                     continue;
                 }
-                let statement = (*keyword, value.to_bits());
                 for element in body.elements_of(row.words[0]) {
                     let sides = mesh.kind(element).faces_of_side(side);
                     let faces = sides.map(|side| Face { element, side });
@@ -77,7 +77,11 @@ impl Model<'_> {
                             self.loaded_faces.inner.insert(row.line);
                             continue;
                         }
-                        statements.entry(face).or_default().insert(statement);
+                        let stated = statements.entry(face).or_default();
+                        let mut statement = (*keyword, value.to_bits(), 0);
+                        while !stated.insert(statement) {
+                            statement.2 += 1;
+                        }
                         first.entry(statement).or_insert(row.line);
                         self.loaded_faces.by_row.entry(row.line).or_default();
                     }

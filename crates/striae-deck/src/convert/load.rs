@@ -10,7 +10,7 @@ use super::faces::side;
 use super::stated::{Family, History, Load, Loaded, Stated, StatedLoad, curve_key};
 use super::{Model, has, numbers};
 use crate::write::value::{list, number, text};
-use std::collections::{BTreeSet, HashSet};
+use std::collections::BTreeSet;
 use striae_meshfile::{Keyword, Row};
 
 impl<'a> Model<'a> {
@@ -245,9 +245,7 @@ impl<'a> Model<'a> {
                 stated.raw_loads.insert(loaded.clone(), none);
             }
         }
-        for (line, what) in self.doubled(history, stated) {
-            self.list(line, what);
-        }
+        self.end_replaced(history, stated, period);
         for (loaded, of) in std::mem::take(&mut stated.raw_loads) {
             let present = history.loads.get(&loaded).map_or([0.0; 3], |(_, of)| *of);
             match self.resolved(&loaded, &of, present) {
@@ -258,33 +256,6 @@ impl<'a> Model<'a> {
                 Err(what) => self.list(of.line, what),
             }
         }
-    }
-
-    /// Forces of a step at nodes that have forces of other sets already, which go on.
-    fn doubled(&self, history: &History, stated: &Stated) -> Vec<(usize, String)> {
-        let mut found = Vec::new();
-        for (loaded, of) in &stated.raw_loads {
-            let Loaded::Nodes(body, set) = loaded else {
-                continue;
-            };
-            let nodes: HashSet<_> = self.bodies[*body].nodes(set).into_iter().collect();
-            for (known, (_, present)) in &history.loads {
-                let Loaded::Nodes(known_body, other) = known else {
-                    continue;
-                };
-                let goes_on = body == known_body && !stated.raw_loads.contains_key(known);
-                let mut components = present.iter().zip(of.components);
-                let is_same = components.any(|(present, new)| *present != 0.0 && new.is_some());
-                let others = || self.bodies[*body].nodes(other).into_iter();
-                if goes_on && is_same && others().any(|node| nodes.contains(&node)) {
-                    let what = format!(
-                        "*CLOAD of `{set}`: its nodes keep the force that an earlier step states for `{other}`; both act in the deck, so take one from the other where the new one is meant instead"
-                    );
-                    found.push((of.line, what));
-                }
-            }
-        }
-        found
     }
 
     fn resolved(

@@ -21,6 +21,7 @@ mod output;
 mod points;
 mod profile;
 mod remedy;
+mod replaced;
 mod rigid;
 mod slip_direction;
 mod springs;

@@ -3,7 +3,9 @@
 use super::amplitude::Period;
 use super::bodies::Body;
 use crate::write::value::{number, text};
-use std::collections::{BTreeMap, BTreeSet};
+use std::cell::OnceCell;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+use striae_mesh::NodeId;
 
 /// Target of a condition.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -22,6 +24,56 @@ pub(super) type Component = (Target, usize);
 pub(super) struct History {
     pub(super) prescribed: BTreeMap<Component, f64>,
     pub(super) loads: BTreeMap<Loaded, (Family, [f64; 3])>,
+    /// Prescribed values of nodes, made when they are first asked for.
+    by_node: OnceCell<HashMap<NodeComponent, f64>>,
+}
+
+/// A body by place, its node and a component.
+type NodeComponent = (usize, NodeId, usize);
+
+/// Nodes and components of prescribed components, with what is said of them.
+fn by_node<'a, T: Copy + 'a>(
+    prescribed: impl Iterator<Item = (&'a Component, T)>,
+    bodies: &[Body],
+) -> HashMap<NodeComponent, T> {
+    let mut all = HashMap::new();
+    for ((target, component), of) in prescribed {
+        if let Target::Nodes(body, set) = target {
+            let nodes = bodies[*body].nodes(set).into_iter();
+            all.extend(nodes.map(|node| ((*body, node, *component), of)));
+        }
+    }
+    all
+}
+
+impl History {
+    /// Present value of a component; `None` if its nodes differ in it.
+    pub(super) fn present(&self, key: &Component, bodies: &[Body]) -> Option<f64> {
+        let (Target::Nodes(body, set), component) = key else {
+            return Some(self.prescribed.get(key).copied().unwrap_or(0.0));
+        };
+        if let Some(known) = self.prescribed.get(key) {
+            return Some(*known);
+        }
+        if self.prescribed.is_empty() {
+            return Some(0.0);
+        }
+        let prescribed = self.prescribed.iter().map(|(key, value)| (key, *value));
+        let known = self.by_node.get_or_init(|| by_node(prescribed, bodies));
+        let nodes = bodies[*body].nodes(set).into_iter();
+        let mut values = nodes.map(|node| known.get(&(*body, node, *component)).unwrap_or(&0.0));
+        let first = *values.next()?;
+        values.all(|value| *value == first).then_some(first)
+    }
+
+    /// Goes on to the end of a step, in which components have ended or been replaced.
+    pub(super) fn advance(&mut self, stated: Stated, past: &BTreeSet<Component>) {
+        self.by_node.take();
+        self.prescribed.retain(|key, _| !past.contains(key));
+        let targets = stated.prescribed.into_iter();
+        self.prescribed
+            .extend(targets.map(|(key, of)| (key, of.reached)));
+    }
 }
 
 /// A component that a step prescribes.
@@ -129,5 +181,24 @@ impl Stated {
         let before = history.prescribed.keys();
         let ended = before.filter(|key| self.is_new && !self.prescribed.contains_key(*key));
         ended.cloned().collect()
+    }
+
+    /// Prescribed components of which all nodes are stated again, by sets of other names.
+    pub(super) fn replaced(&self, history: &History, bodies: &[Body]) -> BTreeSet<Component> {
+        let is_kept = |key: &&Component| !self.prescribed.contains_key(*key);
+        let kept: Vec<&Component> = history.prescribed.keys().filter(is_kept).collect();
+        if kept.is_empty() || self.prescribed.is_empty() {
+            return BTreeSet::new();
+        }
+        let anew = by_node(self.prescribed.keys().map(|key| (key, ())), bodies);
+        let is_replaced = |(target, component): &&Component| match target {
+            Target::Nodes(body, set) => {
+                let nodes = bodies[*body].nodes(set);
+                let mut all = nodes.iter();
+                all.all(|node| anew.contains_key(&(*body, *node, *component)))
+            }
+            Target::Rigid(_) => false,
+        };
+        kept.into_iter().filter(is_replaced).cloned().collect()
     }
 }

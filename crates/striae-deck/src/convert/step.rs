@@ -117,20 +117,17 @@ impl<'a> Model<'a> {
         }
         self.resolve_loads(history, &mut stated, procedure.period);
         let frictions = self.changed_frictions(within);
-        let ended = stated.ended(history);
+        let replaced = stated.replaced(history, &self.bodies);
+        let mut ended = stated.ended(history);
+        ended.retain(|component| !replaced.contains(component));
         let motions = self.motions(&stated, &ended, initial.is_some());
         let mut table = self.table(name, &procedure, &stated, &ended, motions);
         if !frictions.is_empty() {
             table += &entries("friction", &frictions);
         }
         self.steps += &table;
-        for component in ended {
-            history.prescribed.remove(&component);
-        }
-        let targets = stated.prescribed.into_iter();
-        history
-            .prescribed
-            .extend(targets.map(|(key, of)| (key, of.reached)));
+        ended.extend(replaced);
+        history.advance(stated, &ended);
         Some(procedure.period.duration)
     }
 

@@ -41,17 +41,56 @@ fn forces_of_one_node_in_a_step_add_and_later_steps_modify_them() {
 }
 
 #[test]
-fn forces_of_other_sets_at_the_same_nodes_are_listed() {
+fn forces_of_other_sets_at_the_same_nodes_replace_those_before() {
+    let saw = "*AMPLITUDE, NAME=Saw\n0., 0., 1., 3., 2., 0., 4., 2.\n";
     let first = with("*CLOAD\nPad-1.High, 3, -2.\n");
-    let later = |word: &str, op: &str| {
-        let second = format!("*STEP\n*STATIC\n*CLOAD{op}\n{word}, 3, -5.\n*END STEP\n");
-        converted(&model("", &(first.clone() + &second))).1
+    let later = |rows: &str, option: &str| {
+        let first = match option.contains("Saw") {
+            true => saw.to_owned() + &first,
+            false => first.clone(),
+        };
+        let second = format!("*STEP\n*STATIC\n*CLOAD{option}\n{rows}*END STEP\n");
+        converted(&model("", &(first + &second)))
     };
-    let said = ["*CLOAD of `node Pad-1.7`: its nodes keep the force that an earlier step states"];
-    assert_listed(&later("Pad-1.7", ""), &said);
-    for (word, op) in [("Pad-1.7", ", OP=NEW"), ("Pad-1.1", ""), ("Base-1.7", "")] {
-        assert_listed(&later(word, op), &[]);
+    let all: String = (5..9)
+        .map(|node| format!("Pad-1.{node}, 3, -5.\n"))
+        .collect();
+    let (_, listed, deck) = later(&all, "");
+    assert_listed(&listed, &[]);
+    let forces = deck.model.steps[1].forces.iter();
+    let mut forces: Vec<_> = forces.map(|of| (of.nodes.len(), each(of).z)).collect();
+    forces.sort_by_key(|(count, _)| *count);
+    assert_eq!(
+        forces,
+        [(1, -5.0), (1, -5.0), (1, -5.0), (1, -5.0), (4, 0.0)]
+    );
+    let kept = ["*CLOAD: its nodes keep the force that an earlier step states for `Pad-1.High`"];
+    assert_listed(&later("Pad-1.7, 3, -5.\n", "").1, &kept);
+    assert_listed(&later(&all, ", AMPLITUDE=Saw").1, &kept);
+    for (rows, option) in [
+        ("Pad-1.7, 3, -5.\n", ", OP=NEW"),
+        ("Pad-1.7, 1, -5.\n", ""),
+        ("Pad-1.1, 3, -5.\n", ""),
+        ("Base-1.7, 3, -5.\n", ""),
+    ] {
+        assert_listed(&later(rows, option).1, &[]);
     }
+}
+
+#[test]
+fn equal_pressures_of_a_face_add() {
+    let step = with("*DLOAD\nPad-1.1, P2, 3.\nPad-1.All, P2, 3.\nBase-1.1, P4, 3.\n");
+    let (_, listed, deck) = converted(&model("", &step));
+    assert_listed(&listed, &[]);
+    let mut values: Vec<f64> = Vec::new();
+    for load in &deck.model.steps[0].loads {
+        let LoadKind::Pressure(value) = &load.kind else {
+            panic!("{:?}", load.kind);
+        };
+        values.push(value.number().unwrap());
+    }
+    values.sort_by(f64::total_cmp);
+    assert_eq!(values, [3.0, 6.0]);
 }
 
 #[test]

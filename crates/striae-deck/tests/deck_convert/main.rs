@@ -156,6 +156,12 @@ Pad-1.Bottom, Base-1.Top
     let (_, listed, deck) = converted(&model(tie, &STEP.replace("Pad-1.Low, 1, 2\n", "")));
     assert_eq!(listed, Vec::<String>::new());
     assert_eq!(deck.model.ties.len(), 1);
+    let own = "*TIE, NAME=glue\nPad-1.Bottom, Pad-1.Top\n";
+    let (_, listed, _) = converted(&model(own, STEP));
+    assert_listed(
+        &listed,
+        &["*TIE `Pad-1.Bottom, Pad-1.Top`: both surfaces are of one"],
+    );
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use super::{STEP, assert_listed, converted, made, model, with};
 use striae_mesh::Vec3;
-use striae_solve::model::{Mover, Procedure};
+use striae_solve::model::{Curve, Mover, Procedure};
 
 #[test]
 fn the_four_numbers_of_a_step() {
@@ -157,4 +157,45 @@ fn nodes_on_the_axis_of_a_transform_are_left_out() {
         found.next().expect("it is prescribed").nodes.len()
     };
     assert_eq!((of(1), of(2)), (3, 4));
+}
+
+#[test]
+fn conditions_go_on_from_those_of_the_same_nodes_in_other_sets() {
+    let nodes = |rows: std::ops::Range<usize>| -> String {
+        rows.map(|node| format!("Pad-1.{node}, 3, 3, -0.06\n"))
+            .collect()
+    };
+    let later = |rows: &str, option: &str| {
+        let mixed = "*NSET, NSET=Mixed, INSTANCE=Pad-1\n1, 5\n";
+        let ramp = match option.contains("Ramp") {
+            true => "*AMPLITUDE, NAME=Ramp\n0., 0.5, 1., 1.\n",
+            false => "",
+        };
+        let second = format!("*STEP\n*STATIC\n*BOUNDARY{option}\n{rows}*END STEP\n");
+        converted(&model(mixed, &format!("{ramp}{STEP}{second}")))
+    };
+    // From -0.02 to -0.06 over -0.03: the curve begins at a quarter of the way.
+    let (text, listed, deck) = later(&nodes(5..9), ", AMPLITUDE=Ramp");
+    assert_listed(&listed, &[]);
+    for displacement in &deck.model.steps[1].displacements {
+        let Curve::Table(points) = &displacement.curve else {
+            panic!("{text}");
+        };
+        assert!((points[0].1 - 0.25).abs() < 1e-12, "{points:?}");
+    }
+    let mixed = "Mixed, 3, 3, -0.06\n";
+    assert_listed(&later(mixed, "").1, &[]);
+    let (_, listed, _) = later(mixed, ", AMPLITUDE=Ramp");
+    assert_listed(
+        &listed,
+        &[
+            "*AMPLITUDE `Ramp`, which nothing here follows",
+            "*BOUNDARY of `Mixed`: its nodes have different displacements",
+        ],
+    );
+    // None of the nodes is released in the step that states it again.
+    let held = "Base-1.Low, 1, 3\nPad-1.Low, 1, 2\n";
+    let (text, listed, deck) = later(&(held.to_owned() + &nodes(5..9)), ", OP=NEW");
+    assert_listed(&listed, &[]);
+    assert!(deck.model.steps[1].releases.is_empty(), "{text}");
 }
