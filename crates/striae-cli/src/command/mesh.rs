@@ -21,7 +21,8 @@ use crate::failure::Failure;
 pub struct Arguments {
     /// The file: .msh of Gmsh, .inp of Abaqus, .vtu or .vtk of VTK, or .stl.
     file: PathBuf,
-    /// Draw the facet sets, or the element sets if there are none, as a PNG.
+    /// Draw the facet sets, or the element sets if there are none, as a PNG; of a rigid surface
+    /// the normals, with fronts, which bodies touch, and backs in two colours.
     #[arg(long, value_name = "FILE.png", value_parser = png)]
     picture: Option<PathBuf>,
     /// Viewing direction of the picture, from the eye to the mesh.

@@ -71,8 +71,18 @@ impl Canvas {
         }
     }
 
-    /// Darkens what a line crosses where nothing hides it.
+    /// Darkens what a line crosses where nothing hides it, on faces alone.
     pub fn line(&mut self, ends: [[f64; 3]; 2], darkness: f64) {
+        self.darken(ends, darkness, f64::MAX);
+    }
+
+    /// Darkens what a line crosses where nothing hides it, beside the faces, too.
+    pub fn needle(&mut self, ends: [[f64; 3]; 2], darkness: f64) {
+        self.darken(ends, darkness, f64::INFINITY);
+    }
+
+    /// Darkens what a line crosses where nothing hides it, up to a depth.
+    fn darken(&mut self, ends: [[f64; 3]; 2], darkness: f64, deepest: f64) {
         let [from, to] = ends;
         let steps = (to[0] - from[0]).abs().max((to[1] - from[1]).abs()).ceil();
         // A line lies on the faces beside it, to the slope of a face that is seen steeply.
@@ -85,7 +95,7 @@ impl Canvas {
                 continue;
             }
             let at = y as usize * self.size[0] + x as usize;
-            if at != last && depth < self.depths[at] + slack && self.depths[at].is_finite() {
+            if at != last && depth < self.depths[at] + slack && self.depths[at] <= deepest {
                 self.colors[at] = self.colors[at].map(|channel| channel * (1.0 - darkness));
             }
             last = at;

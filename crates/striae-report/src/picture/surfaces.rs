@@ -31,6 +31,13 @@ const COLORS: [Color; 12] = [
     [0.45, 0.75, 0.75],
 ];
 
+/// Names of the sides of faces whose normals are shown.
+const SIDES: [&str; 2] = ["front", "back"];
+/// Faces whose normals are drawn at most.
+const NEEDLES: usize = 2000;
+/// Length of a normal over that of a square of the mean area of the faces.
+const NEEDLE: f64 = 0.7;
+
 /// Most names that are listed.
 const LISTED: usize = 24;
 
@@ -45,6 +52,9 @@ pub struct Surfaces {
     pub named: Vec<Option<usize>>,
     /// The names.
     pub names: Vec<String>,
+    /// Shows to which side the faces look, in place of names: by colours of their fronts and
+    /// backs, and by their normals.
+    pub shows_normals: bool,
     /// From the place of the eye to what is seen; the third axis points upwards.
     pub direction: [f64; 3],
     /// Columns of dots.
@@ -58,6 +68,7 @@ impl Default for Surfaces {
             faces: Vec::new(),
             named: Vec::new(),
             names: Vec::new(),
+            shows_normals: false,
             direction: super::Picture::default().direction,
             width: WIDTH,
         }
@@ -70,10 +81,19 @@ impl Surfaces {
     /// # Errors
     /// When the direction has no length.
     pub fn render(&self) -> Result<Dots, ReportError> {
-        let view = View::along(self.direction, &self.places, self.width)?;
+        let needles = self.needles();
+        let ends = needles.iter().map(|[_, end]| *end);
+        let shown: Vec<[f64; 3]> = self.places.iter().copied().chain(ends).collect();
+        let view = View::along(self.direction, &shown, self.width)?;
         let mut canvas = Canvas::new(view.size());
         let seen: Vec<[f64; 3]> = self.places.iter().map(|x| view.seen(*x)).collect();
         for (face, name) in self.faces.iter().zip(&self.named) {
+            let name = match self.shows_normals {
+                true => self
+                    .normal(face)
+                    .map(|normal| usize::from(view.is_behind(normal))),
+                false => *name,
+            };
             let color = name.map_or(GREY, |name| COLORS[name % COLORS.len()]);
             let [a, b, c, d] = *face;
             for triangle in [[a, b, c], [a, c, d]] {
@@ -89,7 +109,45 @@ impl Surfaces {
             ends.into_iter()
                 .for_each(|ends| canvas.line(ends, darkness));
         }
+        for needle in needles {
+            canvas.needle(needle.map(|end| view.seen(end)), 0.9);
+        }
         Ok(self.legend(canvas.dots()))
+    }
+
+    /// Area of a face along its normal; half the vector product of its diagonals.
+    fn area(&self, face: &[usize; 4]) -> [f64; 3] {
+        let [a, b, c, d] = face.map(|corner| self.places[corner]);
+        let [first, second] = [[a, c], [b, d]].map(|[from, to]| [0, 1, 2].map(|i| to[i] - from[i]));
+        cross(first, second).map(|component| 0.5 * component)
+    }
+
+    /// The normal of a face that has one.
+    fn normal(&self, face: &[usize; 4]) -> Option<[f64; 3]> {
+        unit(self.area(face))
+    }
+
+    /// Normals of faces, from their middles, if they are to be shown and are not too many.
+    fn needles(&self) -> Vec<[[f64; 3]; 2]> {
+        if !self.shows_normals || self.faces.len() > NEEDLES {
+            return Vec::new();
+        }
+        let size = |face| self.area(face).iter().map(|x| x * x).sum::<f64>().sqrt();
+        let mean = self.faces.iter().map(size).sum::<f64>() / self.faces.len().max(1) as f64;
+        let length = NEEDLE * mean.sqrt();
+        let needle = |face: &[usize; 4]| {
+            let normal = self.normal(face)?;
+            // A triangle repeats its last corner.
+            let corners = if face[2] == face[3] { 3 } else { 4 };
+            let middle = [0, 1, 2].map(|axis| {
+                let along = face[..corners]
+                    .iter()
+                    .map(|corner| self.places[*corner][axis]);
+                along.sum::<f64>() / corners as f64
+            });
+            Some([middle, [0, 1, 2].map(|i| middle[i] + length * normal[i])])
+        };
+        self.faces.iter().filter_map(needle).collect()
     }
 
     /// Edges of the faces, each once.
@@ -117,8 +175,12 @@ impl Surfaces {
         let left = width - bar_room(width);
         let row = 1.6 * text;
         let fitting = ((height as f64 - 2.0 * row) / row).max(1.0) as usize;
-        let listed = self.names.len().min(fitting).min(LISTED);
-        for (at, name) in self.names.iter().take(listed).enumerate() {
+        let names: Vec<&str> = match self.shows_normals {
+            true => SIDES.into(),
+            false => self.names.iter().map(String::as_str).collect(),
+        };
+        let listed = names.len().min(fitting).min(LISTED);
+        for (at, name) in names.iter().take(listed).enumerate() {
             let bottom = row * (at as f64 + 1.5);
             let color = COLORS[at % COLORS.len()].map(|channel| (channel * 255.0) as u8);
             let side = (0.8 * text) as usize;
@@ -129,8 +191,8 @@ impl Surfaces {
             let room = width as f64 - start - 0.3 * text;
             dots.write_words(&shortened(name, room, text), [start, bottom], text);
         }
-        if listed < self.names.len() {
-            let more = format!("and {} more", self.names.len() - listed);
+        if listed < names.len() {
+            let more = format!("and {} more", names.len() - listed);
             let bottom = row * (listed as f64 + 1.5);
             dots.write_words(&more, [left as f64, bottom], text);
         }
@@ -165,6 +227,7 @@ mod tests {
             names: vec!["left".to_owned(), "a name that is far too long".to_owned()],
             direction: [0.0, 1.0, 0.0],
             width: 400,
+            ..Surfaces::default()
         };
         let mut dots = surfaces.render().unwrap();
         let [width, height] = dots.size();
@@ -179,6 +242,42 @@ mod tests {
             ..surfaces
         };
         assert!(matches!(blind.render(), Err(ReportError::View)));
+    }
+
+    #[test]
+    fn fronts_and_backs_differ_and_normals_stick_out() {
+        let places = vec![[0.0; 3], [1.0, 0.0, 0.0], [1.0, 0.0, 1.0], [0.0, 0.0, 1.0]];
+        let seen = |face: [usize; 4], direction: [f64; 3]| {
+            let surfaces = Surfaces {
+                places: places.clone(),
+                faces: vec![face],
+                named: vec![None],
+                shows_normals: true,
+                direction,
+                width: 400,
+                ..Surfaces::default()
+            };
+            surfaces.render().unwrap()
+        };
+        let at = |mut dots: Dots, share: f64| {
+            let [width, height] = dots.size();
+            let middle = (width - bar_room(width)) as f64;
+            *dots.dot([(share * middle) as usize, height / 4])
+        };
+        // The normal is -y.
+        let face = [0, 1, 2, 3];
+        let [front, back] = [1.0, -1.0].map(|y| at(seen(face, [0.0, y, 0.0]), 0.3));
+        assert!(
+            front[2] > front[0] && back[0] > back[2],
+            "{front:?} {back:?}"
+        );
+        let turned = at(seen([0, 3, 2, 1], [0.0, 1.0, 0.0]), 0.3);
+        assert_eq!(turned, back);
+        // Seen along the face there is nothing but its normal.
+        let mut side = seen(face, [1.0, 0.0, 0.0]);
+        let [width, height] = side.size();
+        let dark = (0..width - bar_room(width)).filter(|x| side.dot([*x, height / 2])[0] < 200);
+        assert!(dark.count() > 100);
     }
 
     #[test]

@@ -98,6 +98,11 @@ impl View {
         ]
     }
 
+    /// Returns whether a face with this normal is seen from behind.
+    pub fn is_behind(&self, normal: [f64; 3]) -> bool {
+        dot(normal, self.axes[2]) > 0.0
+    }
+
     /// Brightness of a face with this normal, for light from above the left shoulder.
     pub fn brightness(&self, normal: [f64; 3]) -> f64 {
         let [right, up, away] = self.axes.map(|axis| dot(normal, axis));

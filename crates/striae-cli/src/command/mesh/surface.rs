@@ -39,13 +39,14 @@ pub fn of_body(mesh: &Mesh) -> Surfaces {
     }
 }
 
-/// A rigid surface.
+/// A rigid surface with the normals of its facets.
 pub fn of_rigid(surface: &RigidSurfaceMesh) -> Surfaces {
     let facets = surface.facets.iter();
     Surfaces {
         places: places(&surface.positions),
         faces: facets.map(|nodes| nodes.map(|n| n.index())).collect(),
         named: vec![None; surface.facets.len()],
+        shows_normals: true,
         ..Surfaces::default()
     }
 }
