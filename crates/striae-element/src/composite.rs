@@ -37,7 +37,7 @@
 use super::{ElementError, mass::Mass, reference::Reference};
 use nalgebra::Matrix3;
 use striae_law::bulk::{LameConstants, Material};
-use striae_mesh::{COMPOSITE_PARTS, CellKind, Vec3};
+use striae_mesh::{COMPOSITE_PARTS, CellKind, Vec3, composite_linear};
 
 /// Nodes.
 pub(super) const NODES: usize = 10;
@@ -45,9 +45,6 @@ pub(super) const NODES: usize = 10;
 pub(super) const POINTS: usize = 4;
 /// Reference volumes of the parts.
 pub(super) type Parts = [f64; COMPOSITE_PARTS.len()];
-
-/// `(5 - sqrt(5))/20`.
-const NEAR: f64 = 0.138_196_601_125_010_5;
 
 /// The element with the reference positions `X`, and the volumes of its parts.
 ///
@@ -64,7 +61,10 @@ pub(super) fn reference(
     for (part, (middle, _)) in points.iter().enumerate() {
         let (determinant, of_nodes) = slopes(corners, part)?;
         volumes[part] = determinant / 6.0;
-        for (g, value) in linear(&Vec3::from(*middle)).into_iter().enumerate() {
+        for (g, value) in composite_linear(&Vec3::from(*middle))
+            .into_iter()
+            .enumerate()
+        {
             let share = volumes[part] * value;
             weights[g] += share;
             for (a, slope) in of_nodes.iter().enumerate() {
@@ -97,7 +97,7 @@ pub(super) fn share(material: &Material) -> f64 {
 /// The linear field through the values at the points, at the nodes.
 pub(super) fn recovery() -> [[f64; POINTS]; NODES] {
     let corners = CellKind::CompositeTetrahedron.shape().corners;
-    std::array::from_fn(|a| linear(&Vec3::from(corners[a])))
+    std::array::from_fn(|a| composite_linear(&Vec3::from(corners[a])))
 }
 
 /// The mass matrix from the volumes of the parts.
@@ -124,12 +124,6 @@ fn shares(node: usize) -> std::ops::Range<usize> {
         NODES => 4..NODES,
         node => node..node + 1,
     }
-}
-
-/// `psi_g` at natural coordinates.
-fn linear(at: &Vec3) -> [f64; POINTS] {
-    let linear = [1.0 - at.x - at.y - at.z, at.x, at.y, at.z];
-    linear.map(|l| (l - NEAR) / (1.0 - 4.0 * NEAR))
 }
 
 /// Six times the volume of a part, and the gradients `G_a^s` of the nodes in it.

@@ -17,7 +17,7 @@ mod tetrahedron;
 mod wedge;
 
 use crate::{NodeId, Vec3};
-pub use composite::COMPOSITE_PARTS;
+pub use composite::{COMPOSITE_PARTS, composite_linear};
 use serde::Serialize;
 use std::{fmt, ops::Range};
 

@@ -30,7 +30,9 @@ mod sets;
 mod topology;
 mod transform;
 
-pub use cell::{COMPOSITE_PARTS, CellBlock, CellKind, CellShape, MAX_CORNERS, MAX_POINTS};
+pub use cell::{
+    COMPOSITE_PARTS, CellBlock, CellKind, CellShape, MAX_CORNERS, MAX_POINTS, composite_linear,
+};
 pub use error::MeshError;
 pub use figures::{place, significant};
 pub use id::{ElementId, Face, FacetId, NodeId};

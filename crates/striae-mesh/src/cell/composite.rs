@@ -115,6 +115,17 @@ pub(super) static SHAPE: CellShape = CellShape {
     gradients,
 };
 
+/// Natural coordinates of the points of the rule of degree two: one is `1 - 3 n` and the others
+/// `n = (5 - sqrt(5))/20`.
+const NEAR: f64 = 0.138_196_601_125_010_5;
+
+/// Linear functions that are 1 at one of the four points of the rule of degree two and 0 at the
+/// others, at natural coordinates: `(l_g - n)/(1 - 4 n)`.
+pub fn composite_linear(at: &Vec3) -> [f64; 4] {
+    let linear = [1.0 - at.x - at.y - at.z, at.x, at.y, at.z];
+    linear.map(|l| (l - NEAR) / (1.0 - 4.0 * NEAR))
+}
+
 /// The place where `l_a` is `value` and the others are equal, for a part of so many.
 const fn middle(a: usize, value: f64, parts: f64) -> ([f64; 3], f64) {
     let mut at = [(1.0 - value) / 3.0; 3];
