@@ -31,8 +31,9 @@ pub const TARGET: &str = "STRIAE_FUZZ_TARGET";
 /// Environment variable with the folder.
 pub const FOLDER: &str = "STRIAE_FUZZ_FOLDER";
 
-/// Processor time after which an input hangs.
-const SECONDS: u64 = 10;
+/// Processor time after which an input hangs: 10 s of a program that does not count what it
+/// reaches.
+const SECONDS: u64 = 25;
 /// Inputs of which one is run, and not only checked.
 const RUN: u32 = 4;
 
