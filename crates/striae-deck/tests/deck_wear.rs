@@ -114,11 +114,16 @@ fn what_cannot_wear_is_named_with_its_place() {
             "{line}: {said}"
         );
     }
-    let itself = with("wear = 1e-8").replacen(
-        "b = { body = \"upper\", facets = \"zmin\" }",
-        "b = \"itself\"",
-        1,
-    );
-    let said = refused(&itself);
-    assert!(said.contains("has no `wear`"), "{said}");
+    for (stated, what) in [
+        ("wear = 1e-8", "has no `wear`"),
+        ("initial = \"close\"", "closes no gaps"),
+    ] {
+        let itself = with(stated).replacen(
+            "b = { body = \"upper\", facets = \"zmin\" }",
+            "b = \"itself\"",
+            1,
+        );
+        let said = refused(&itself);
+        assert!(said.contains(what), "{said}");
+    }
 }

@@ -172,9 +172,15 @@ impl<'a> Model<'a> {
     fn own_pair(&mut self, row: &Row<'_>, word: &str, interaction: &Interaction, more: &str) {
         match self.side(word) {
             Ok(side) if side.starts_with("{ body") => {
+                if !more.is_empty() {
+                    let what = format!(
+                        "*CONTACT PAIR, ADJUST of `{word}`: no gaps are closed between a surface and itself"
+                    );
+                    self.list(row.line, what);
+                }
                 let name = self.name("pair", &format!("{word} on itself"));
                 self.contact += &format!(
-                    "\n[[pair]]\nname = {name}\na = {side}\nb = \"itself\"\n{}{more}",
+                    "\n[[pair]]\nname = {name}\na = {side}\nb = \"itself\"\n{}",
                     interaction.line()
                 );
                 if interaction.is_anisotropic {

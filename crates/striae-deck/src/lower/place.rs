@@ -214,7 +214,10 @@ fn of_pair(pair: &At<raw::Pair>, rest: &[Segment]) -> Span {
         [Field("interference"), ..] => raw.interference.as_ref().map(|at| &at.span),
         [Field("wear"), ..] => raw.wear.as_ref().map(|at| &at.span),
         [Field("wear_across"), ..] => raw.wear_across.as_ref().map(|at| &at.span),
-        [Field("initial"), ..] => raw.name.as_ref().map(|at| &at.span),
+        [Field("initial"), ..] => {
+            let initial = raw.initial.as_ref().map(|at| &at.span);
+            initial.or(raw.name.as_ref().map(|at| &at.span))
+        }
         [Field("a"), ..] => rigid_name(raw, 0).map(|at| &at.span),
         [Field("b"), ..] => rigid_name(raw, 1).map(|at| &at.span),
         [Field("textures"), Index(side), ..] => {

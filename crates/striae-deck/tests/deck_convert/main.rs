@@ -178,6 +178,12 @@ Pad-1.Bottom, Base-1.Top
     let (_, listed, deck) = converted(&model("", &format!("{contact}{STEP}")));
     assert_eq!(listed, Vec::<String>::new());
     assert_eq!(deck.model.pairs[0].friction.coefficient().at_rest(), 0.3);
+    let adjusted = "*SURFACE INTERACTION, NAME=Fric\n*FRICTION\n0.3,\n*CONTACT PAIR, INTERACTION=Fric, ADJUST=0.1\nPad-1.Bottom,\n";
+    let (_, listed, _) = converted(&model("", &format!("{adjusted}{STEP}")));
+    assert_listed(
+        &listed,
+        &["*CONTACT PAIR, ADJUST of `Pad-1.Bottom`: no gaps"],
+    );
     let own = contact.replace("Pad-1.Bottom, Base-1.Top", "Pad-1.Bottom,");
     let (_, listed, deck) = converted(&model("", &format!("{own}{STEP}")));
     assert_eq!(listed, Vec::<String>::new());

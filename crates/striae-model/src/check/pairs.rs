@@ -169,6 +169,9 @@ fn unsuited(pair: &Pair) -> Option<(&'static str, FaultKind)> {
         true if pair.interference.is_some() => {
             Some(("interference", on_itself("has no `interference`")))
         }
+        true if matches!(pair.initial, Initial::Close(_)) => {
+            Some(("initial", on_itself("closes no gaps")))
+        }
         true if pair.wear != [0.0; 2] => Some(("wear", on_itself("has no `wear`"))),
         true if pair.stabilised => {
             let why = "does not restrain the body, so `stabilise` has no effect";
