@@ -143,9 +143,6 @@ const WITHOUT_STRESS: [&str; 15] = [
     "USER OUTPUT VARIABLES",
 ];
 
-/// Numbers that a row of constants has.
-const ROW: usize = 8;
-
 /// All materials of a file; `explain` puts into words why one cannot be used.
 pub(super) fn materials(
     keywords: &[Keyword<'_>],
@@ -413,9 +410,9 @@ fn several(option: &Keyword<'_>, count: usize) -> Result<Vec<f64>, MeshFileFault
     if all.is_empty() {
         return Err(option.fault("constants below it"));
     }
-    // A temperature and fields may follow the constants, which depend on them where there are more
-    // rows than the constants take.
-    if all.len() > count + 1 && option.rows.len() > count.div_ceil(ROW) {
+    // Zeros behind the temperature state nothing; other numbers may be constants of more terms.
+    let more = all.get(count + 1..).unwrap_or_default();
+    if more.iter().any(|value| *value != 0.0) {
         return Err(option.rows[0].fault("constants at one temperature"));
     }
     all.resize(count, 0.0);

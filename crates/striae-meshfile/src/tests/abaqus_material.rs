@@ -52,7 +52,7 @@ fn cards_are_read_as_they_stand() {
             Elasticity::NeoHooke { c10: 0.4, d1: 0.02 },
         ),
         (
-            "*DENSITY\n0.,\n*HYPERELASTIC, NEO HOOKE\n0.4, 0.02, 20., 1., 0., 0.\n",
+            "*DENSITY\n0.,\n*HYPERELASTIC, NEO HOOKE\n0.4, 0.02, 20., 0., 0., 0.\n",
             Elasticity::NeoHooke { c10: 0.4, d1: 0.02 },
         ),
         (
@@ -141,6 +141,10 @@ fn what_has_no_counterpart_is_named() {
         (
             "*ELASTIC\n1., .3, 20.\n2., .3, 40.\n",
             "expected constants at one temperature, found `1., .3, 20.`",
+        ),
+        (
+            "*HYPERELASTIC, OGDEN\n1., 2., 3., 4., .1, .1\n",
+            "expected constants at one temperature, found `1., 2., 3., 4., .1, .1`",
         ),
         (
             "*ELASTIC\n1., .5\n",
