@@ -24,6 +24,9 @@ pub(super) type Component = (Target, usize);
 pub(super) struct History {
     pub(super) prescribed: BTreeMap<Component, f64>,
     pub(super) loads: BTreeMap<Loaded, (Family, [f64; 3])>,
+    /// Number of the last step that states a prescribed component, and of steps.
+    stated_in: BTreeMap<Component, usize>,
+    steps: usize,
     /// Prescribed values of nodes, made when they are first asked for.
     by_node: OnceCell<HashMap<NodeComponent, f64>>,
 }
@@ -52,14 +55,20 @@ impl History {
         let (Target::Nodes(body, set), component) = key else {
             return Some(self.prescribed.get(key).copied().unwrap_or(0.0));
         };
-        if let Some(known) = self.prescribed.get(key) {
-            return Some(*known);
+        // Nothing has changed some of its nodes since.
+        if self.stated_in.get(key) == Some(&self.steps) {
+            return self.prescribed.get(key).copied();
         }
         if self.prescribed.is_empty() {
             return Some(0.0);
         }
-        let prescribed = self.prescribed.iter().map(|(key, value)| (key, *value));
-        let known = self.by_node.get_or_init(|| by_node(prescribed, bodies));
+        let known = self.by_node.get_or_init(|| {
+            let mut all: Vec<(&Component, f64)> =
+                self.prescribed.iter().map(|(key, of)| (key, *of)).collect();
+            // What a later step states of a node replaces what an earlier one does.
+            all.sort_by_key(|(key, _)| self.stated_in.get(*key));
+            by_node(all.into_iter(), bodies)
+        });
         let nodes = bodies[*body].nodes(set).into_iter();
         let mut values = nodes.map(|node| known.get(&(*body, node, *component)).unwrap_or(&0.0));
         let first = *values.next()?;
@@ -70,6 +79,10 @@ impl History {
     pub(super) fn advance(&mut self, stated: Stated, past: &BTreeSet<Component>) {
         self.by_node.take();
         self.prescribed.retain(|key, _| !past.contains(key));
+        self.steps += 1;
+        for key in stated.prescribed.keys() {
+            self.stated_in.insert(key.clone(), self.steps);
+        }
         let targets = stated.prescribed.into_iter();
         self.prescribed
             .extend(targets.map(|(key, of)| (key, of.reached)));

@@ -193,6 +193,26 @@ fn conditions_go_on_from_those_of_the_same_nodes_in_other_sets() {
             "*BOUNDARY of `Mixed`: its nodes have different displacements",
         ],
     );
+    // A node that a later step moves away from its set, whatever the names of both.
+    for name in ["Above", "Zero"] {
+        let one = format!("*NSET, NSET={name}, INSTANCE=Pad-1\n5\n");
+        let ramp = "*AMPLITUDE, NAME=Ramp\n0., 0.5, 1., 1.\n";
+        let moved = format!("*STEP\n*STATIC\n*BOUNDARY\n{name}, 3, 3, -0.06\n*END STEP\n");
+        let last = "*STEP\n*STATIC\n*BOUNDARY, AMPLITUDE=Ramp\nPad-1.5, 3, 3, -0.1\nPad-1.High, 3, 3, -0.1\n*END STEP\n";
+        let (text, listed, deck) = converted(&model(&one, &format!("{ramp}{STEP}{moved}{last}")));
+        assert_listed(
+            &listed,
+            &["*BOUNDARY of `Pad-1.High`: its nodes have different"],
+        );
+        let [only] = &deck.model.steps[2].displacements[..] else {
+            panic!("{text}");
+        };
+        // From -0.06 by -0.05 to -0.1: the curve begins a quarter of the way back.
+        let Curve::Table(points) = &only.curve else {
+            panic!("{text}");
+        };
+        assert!((points[0].1 + 0.25).abs() < 1e-12, "{name}: {points:?}");
+    }
     // None of the nodes is released in the step that states it again.
     let held = "Base-1.Low, 1, 3\nPad-1.Low, 1, 2\n";
     let (text, listed, deck) = later(&(held.to_owned() + &nodes(5..9)), ", OP=NEW");
