@@ -120,11 +120,20 @@ impl Tree {
                 let bounds = &boxes[*item as usize];
                 (bounds.low[axis] + bounds.high[axis], *item)
             };
-            self.items[start..end].sort_unstable_by(|a, b| {
+            let order = |a: &u32, b: &u32| {
                 let (a, b) = (centre(a), centre(b));
                 a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))
-            });
-            let middle = start + (end - start) / 2;
+            };
+            // Halves are divided again along axes of their own: only leaves need an order.
+            let half = (end - start) / 2;
+            let items = &mut self.items[start..end];
+            items.select_nth_unstable_by(half, order);
+            for part in [0..half, half..items.len()] {
+                if part.len() <= LEAF {
+                    items[part].sort_unstable_by(order);
+                }
+            }
+            let middle = start + half;
             let children = [self.split(start, middle), self.split(middle, end)];
             self.nodes[index].children = Some(children);
         }
