@@ -124,7 +124,8 @@ impl Tree {
                 let (a, b) = (centre(a), centre(b));
                 a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))
             };
-            // Halves are divided again along axes of their own: only leaves need an order.
+            // Halves that are divided again are ordered along axes of their own. The order in a leaf
+            // decides which of several items at one distance `visit_nearest` visits first.
             let half = (end - start) / 2;
             let items = &mut self.items[start..end];
             items.select_nth_unstable_by(half, order);
@@ -246,7 +247,33 @@ mod tests {
         prop::collection::vec(one, 0..60)
     }
 
+    /// Sorts items along the longest axis of their box, then each half of them, down to leaves.
+    fn sort_and_halve(boxes: &[Bounds], items: &mut [u32]) {
+        if items.len() <= LEAF {
+            return;
+        }
+        let of_items = items.iter().map(|&item| boxes[item as usize]);
+        let around = of_items.reduce(|a, b| a.union(&b)).expect("items");
+        let axis = (around.high - around.low).imax();
+        let centre = |item: u32| boxes[item as usize].low[axis] + boxes[item as usize].high[axis];
+        items.sort_by(|&a, &b| centre(a).total_cmp(&centre(b)).then(a.cmp(&b)));
+        let (first, second) = items.split_at_mut(items.len() / 2);
+        sort_and_halve(boxes, first);
+        sort_and_halve(boxes, second);
+    }
+
     proptest! {
+        #[test]
+        fn items_are_those_of_a_full_sort(boxes in boxes(), grid in 1.0..8.0_f64) {
+            // On a grid many boxes have the same centre along an axis.
+            let snapped = |x: &Vec3| x.map(|x| (x * grid).round());
+            let boxes = boxes.iter().map(|of| Bounds { low: snapped(&of.low), high: snapped(&of.high) });
+            let boxes: Vec<Bounds> = boxes.collect();
+            let mut expected: Vec<u32> = (0..boxes.len() as u32).collect();
+            sort_and_halve(&boxes, &mut expected);
+            prop_assert_eq!(Tree::new(boxes).items, expected);
+        }
+
         #[test]
         fn equals_brute_force(boxes in boxes(), x in -1.0..1.0_f64, y in -1.0..1.0_f64) {
             let query = Bounds::around([Vec3::new(x, y, -0.2), Vec3::new(x + 0.3, y + 0.1, 0.3)]);
