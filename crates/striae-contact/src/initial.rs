@@ -37,6 +37,18 @@ pub struct Fit {
     pub lies: Lies,
 }
 
+impl Fit {
+    /// Fit of sides of one body. It states no gap and no overlap, as what lies between them may be
+    /// the body itself.
+    pub const WITHIN_A_BODY: Self = Self {
+        gap: None,
+        overlap: None,
+        chords: 0.0,
+        distance: f64::INFINITY,
+        lies: Lies::InFront,
+    };
+}
+
 /// Position of side `a` relative to a rigid side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lies {
@@ -61,6 +73,9 @@ pub struct Opening {
 
 /// Initial fit of the sides of a pair.
 pub fn fit(stage: &Stage) -> Fit {
+    if stage.configuration.pair.is_in_one_body() {
+        return Fit::WITHIN_A_BODY;
+    }
     let seen: Vec<Seen> = sides(stage)
         .flat_map(|side| {
             let spots = spots(stage.configuration.side(side).surface);
@@ -117,6 +132,9 @@ pub fn signed_gap(stage: &Stage, side: Side, node: SurfaceNode) -> Option<(f64, 
 /// the width of a facet, so that interpolated overlaps are right up to the edge.
 pub fn overlaps(stage: &Stage) -> [Vec<f64>; 2] {
     let mut all = [Vec::new(), Vec::new()];
+    if stage.configuration.pair.is_in_one_body() {
+        return all;
+    }
     for side in sides(stage) {
         let snapshot = stage.configuration.side(side);
         let of_node = |node: SurfaceNode| {
@@ -148,12 +166,8 @@ struct Seen {
 }
 
 fn sides(stage: &Stage) -> impl Iterator<Item = Side> {
-    let configuration = stage.configuration;
-    let sides = configuration.sides.each_ref().map(Option::is_some);
-    let has_opponent = !configuration.pair.is_in_one_body();
-    Side::BOTH
-        .into_iter()
-        .filter(move |&side| has_opponent && sides[side])
+    let sides = stage.configuration.sides.each_ref().map(Option::is_some);
+    Side::BOTH.into_iter().filter(move |&side| sides[side])
 }
 
 fn seen(stage: &Stage, side: Side, spot: Spot) -> Option<Seen> {

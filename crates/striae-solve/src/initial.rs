@@ -59,10 +59,15 @@ pub fn crowded(model: &Model, pair: PairId, fit: &Fit) -> Option<InitialFault> {
 
 /// Initial fit of all pairs; `None` for pairs that are not valid.
 pub fn fits(model: &Model) -> Vec<Option<Fit>> {
-    let pairs = 0..model.pairs.len();
-    pairs
-        .map(|pair| Reference::new(model, PairId(pair)).map(|reference| reference.fit(model)))
-        .collect()
+    let of_pair = |pair: usize| {
+        let sides = &model.pairs[pair];
+        if sides.is_within_a_body() || sides.is_on_itself() {
+            // Neither surfaces nor fibres through the body are needed.
+            return Some(Fit::WITHIN_A_BODY);
+        }
+        Some(Reference::new(model, PairId(pair))?.fit(model))
+    };
+    (0..model.pairs.len()).map(of_pair).collect()
 }
 
 /// Fault of a pair with this fit.
