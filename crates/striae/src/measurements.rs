@@ -289,6 +289,18 @@ mod tests {
                 "angle,tangential,normal\n1,1,-1\n",
                 "m.csv:2:5: `-1` is not a positive number",
             ),
+            (
+                "angle,friction\n0,.3\n90,1e308\n",
+                "m.csv:3:4: friction of more than 1000, but it is tangential over normal force",
+            ),
+            (
+                "angle,tangential,normal\n1,1e200,1e-200\n",
+                "m.csv:2:3: friction of more than 1000",
+            ),
+            (
+                "angle,friction,spread\n1,.3,1e-300\n",
+                "m.csv:2:6: `spread` must lie between 0.000001 and 1000000",
+            ),
         ] {
             let told = parse(text, "m.csv").unwrap_err().to_string();
             assert!(told.contains(message), "{told}");

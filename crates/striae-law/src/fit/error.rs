@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use super::reading::{LARGEST_FRICTION, SPREADS};
 use crate::friction::FrictionError;
 
 /// Reason why a law cannot be fitted.
@@ -17,8 +18,23 @@ pub enum FitError {
         /// Its value.
         value: f64,
     },
-    /// A spread is not positive.
-    #[error("reading {reading} has the spread {spread}, but it must be positive")]
+    /// Friction is too large to be tangential over normal force.
+    #[error(
+        "reading {reading} has the friction {friction:e}, but it must lie between -{LARGEST_FRICTION} \
+         and {LARGEST_FRICTION}: divide the tangential by the normal force"
+    )]
+    TooLarge {
+        /// Its number, from 0.
+        reading: usize,
+        /// The friction.
+        friction: f64,
+    },
+    /// A spread is out of range.
+    #[error(
+        "reading {reading} has the spread {spread}, but it must lie between {} and {}",
+        SPREADS.start(),
+        SPREADS.end()
+    )]
     Spread {
         /// Its number, from 0.
         reading: usize,

@@ -56,7 +56,7 @@ use std::fmt;
 use nalgebra::{DMatrix, DVector, Vector2};
 
 pub use error::FitError;
-pub use reading::Reading;
+pub use reading::{LARGEST_FRICTION, Reading, SPREADS};
 
 use crate::friction::{Basis, Direction, Friction, LAWS};
 use basis::Shape;
@@ -214,7 +214,8 @@ impl Sought {
 /// ```
 ///
 /// # Errors
-/// When readings are not finite or do not oppose slip, or do not determine the constants.
+/// When readings are not finite, out of range or do not oppose slip, or do not determine the
+/// constants.
 pub fn fit(sought: &Sought, readings: &[Reading], level: f64) -> Result<Fit, FitError> {
     if !(level > 0.0 && level < 1.0) {
         return Err(FitError::Level(level));

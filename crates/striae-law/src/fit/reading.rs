@@ -1,6 +1,13 @@
 //! Measured friction.
 
+use std::ops::RangeInclusive;
+
 use super::FitError;
+
+/// Friction over pressure beyond which a reading is refused: a force that was not divided.
+pub const LARGEST_FRICTION: f64 = 1e3;
+/// Spreads beside each other that readings can be weighted by without loss of digits.
+pub const SPREADS: RangeInclusive<f64> = 1e-6..=1e6;
 
 /// Friction measured in one direction of slip.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,7 +67,14 @@ pub(super) fn mean_friction(readings: &[Reading]) -> Result<f64, FitError> {
                 value,
             });
         }
-        if reading.spread <= 0.0 {
+        let frictions = [reading.against, reading.across.unwrap_or(0.0)];
+        if let Some(friction) = frictions.into_iter().find(|x| x.abs() > LARGEST_FRICTION) {
+            return Err(FitError::TooLarge {
+                reading: number,
+                friction,
+            });
+        }
+        if !SPREADS.contains(&reading.spread) {
             let spread = reading.spread;
             return Err(FitError::Spread {
                 reading: number,

@@ -304,6 +304,19 @@ fn what_measurements_leave_open_is_said() {
     let reversed = [Reading::against(0.0, -0.2)];
     let refused = fit(&sought("coulomb"), &reversed, 0.95).unwrap_err();
     assert_eq!(refused, FitError::NotOpposing { mean: -0.2 });
+    let force = [Reading::against(0.0, 0.2), Reading::against(1.0, 1e308)];
+    let refused = fit(&sought("coulomb"), &force, 0.95).unwrap_err();
+    assert_eq!(
+        refused.to_string(),
+        "reading 1 has the friction 1e308, but it must lie between -1000 and 1000: divide the \
+         tangential by the normal force"
+    );
+    let weightless = [Reading {
+        spread: 1e300,
+        ..Reading::against(0.0, 0.2)
+    }];
+    let refused = fit(&sought("coulomb"), &weightless, 0.95).unwrap_err();
+    assert!(matches!(refused, FitError::Spread { reading: 0, .. }));
     let found = fit(&sought("coulomb"), &one[..1], 0.95).unwrap();
     assert_eq!(found.constants[0].name, ConstantName::Key("mu"));
     assert_eq!((found.deviation, found.constants[0].interval), (None, None));

@@ -1,7 +1,7 @@
 //! Names of the columns of a file, and the reading of a line by them.
 
 use striae_files::Separator;
-use striae_law::fit::Reading;
+use striae_law::fit::{LARGEST_FRICTION, Reading, SPREADS};
 
 use super::{
     COLUMNS, Form, MeasurementFault, NamedColumn, fault,
@@ -256,6 +256,11 @@ impl Header {
         let direction = value("direction", Sign::Any);
         let theta = value("theta", Sign::Any);
         let spread = value("spread", Sign::Positive);
+        for (name, message) in out_of_range(friction, spread) {
+            let field = self.field(name).or(self.field("tangential"));
+            let column = field.map_or(1, |field| fields[field].0);
+            faults.push(fault(Some((number, column)), message));
+        }
         let specimen = self.field("specimen").map(|field| fields[field]);
         if let Some((column, "")) = specimen {
             let message = "the name of the specimen is missing";
@@ -283,6 +288,26 @@ impl Header {
             },
         })
     }
+}
+
+/// Quantities of a reading that are out of range, and what is needed of them.
+fn out_of_range(friction: Option<f64>, spread: Option<f64>) -> Vec<(&'static str, String)> {
+    let mut found = Vec::new();
+    if friction.is_some_and(|friction| friction.abs() > LARGEST_FRICTION) {
+        let message = format!(
+            "friction of more than {LARGEST_FRICTION}, but it is tangential over normal force; name the columns of the forces `tangential` and `normal` if it is not divided"
+        );
+        found.push(("friction", message));
+    }
+    if spread.is_some_and(|spread| !SPREADS.contains(&spread)) {
+        let message = format!(
+            "`spread` must lie between {} and {}: it is in proportion to that of other readings",
+            SPREADS.start(),
+            SPREADS.end()
+        );
+        found.push(("spread", message));
+    }
+    found
 }
 
 /// Number of a name, which is added where it is new.
