@@ -128,11 +128,13 @@ impl Names {
     ) -> Result<(), MeshFileFault> {
         sets.name(label);
         for row in &keyword.rows {
-            let members = match keyword.parameter("GENERATE") {
-                Some(_) => self.generated(sets, row)?,
-                None => self.listed(sets, row)?,
-            };
-            for member in members {
+            if keyword.parameter("GENERATE").is_some() {
+                for member in self.generated(sets, row)? {
+                    sets.push_in_range(label, row.line, member);
+                }
+                continue;
+            }
+            for member in self.listed(sets, row)? {
                 sets.push(label, row.line, member);
             }
         }

@@ -329,7 +329,15 @@ impl Part {
     }
 
     /// The mesh, with the names of instances that numbers need.
-    pub(super) fn collected(self, instances: Vec<String>) -> Result<Collected, MeshFileFault> {
+    pub(super) fn collected(mut self, instances: Vec<String>) -> Result<Collected, MeshFileFault> {
+        let notes = self
+            .node_sets
+            .leave_out(|node| self.nodes.contains_key(&node));
+        self.notes.extend(notes);
+        let solids: HashSet<u64> = self.elements.iter().map(|of| of.number).collect();
+        let is_defined = |number| solids.contains(&number) || !self.lower.is_solid(number);
+        let notes = self.element_sets.leave_out(is_defined);
+        self.notes.extend(notes);
         let sections = self.sections.iter().map(|(set, material)| SectionCard {
             set: self.element_sets.spelled(set),
             material: material.clone(),

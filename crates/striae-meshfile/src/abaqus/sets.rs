@@ -16,6 +16,8 @@ pub(super) enum Member {
 pub(super) struct LabelSets {
     of: Member,
     sets: BTreeMap<String, Set>,
+    /// Numbers that ranges name, which need not all be defined.
+    in_ranges: HashSet<u64>,
 }
 
 #[derive(Clone)]
@@ -30,8 +32,11 @@ struct Set {
 impl LabelSets {
     /// No sets.
     pub(super) fn new(of: Member) -> Self {
-        let sets = BTreeMap::new();
-        Self { of, sets }
+        Self {
+            of,
+            sets: BTreeMap::new(),
+            in_ranges: HashSet::new(),
+        }
     }
 
     /// Kind of the members.
@@ -59,6 +64,33 @@ impl LabelSets {
         self.set(label).push(line, member);
     }
 
+    /// Adds a member that a range of numbers names.
+    pub(super) fn push_in_range(&mut self, label: &str, line: usize, member: u64) {
+        self.in_ranges.insert(member);
+        self.push(label, line, member);
+    }
+
+    /// Leaves out numbers of ranges that are not defined, and returns notes about them.
+    pub(super) fn leave_out(&mut self, is_defined: impl Fn(u64) -> bool) -> Vec<String> {
+        let mut in_ranges = std::mem::take(&mut self.in_ranges);
+        in_ranges.retain(|member| !is_defined(*member));
+        let mut notes = Vec::new();
+        for set in self.sets.values_mut() {
+            let before = set.members.len();
+            let missing = |(_, member): &(usize, u64)| in_ranges.contains(member);
+            let Some(line) = set.members.iter().find(|of| missing(of)).map(|of| of.0) else {
+                continue;
+            };
+            set.members.retain(|of| !missing(of));
+            let label = &set.label;
+            notes.push(format!(
+                "set `{label}`: numbers of a range, the first in line {line}, that are not defined and left out: {}",
+                before - set.members.len()
+            ));
+        }
+        notes
+    }
+
     /// A label as it was first spelled.
     pub(super) fn spelled(&self, label: &str) -> String {
         let known = self.sets.get(&label.to_uppercase());
@@ -72,6 +104,9 @@ impl LabelSets {
 
     /// Adds the sets of a part that is placed.
     pub(super) fn place(&mut self, part: &Self, at: &Placement) {
+        let in_ranges = part.in_ranges.iter();
+        self.in_ranges
+            .extend(in_ranges.map(|member| member + at.raise));
         for Set { label, members, .. } in part.sets.values() {
             let set = self.set(&format!("{}{label}", at.prefix));
             for (line, member) in members {

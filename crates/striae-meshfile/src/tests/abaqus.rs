@@ -249,6 +249,29 @@ fn ranges_of_more_numbers_than_the_file_has_rows_are_refused() {
 }
 
 #[test]
+fn numbers_of_ranges_need_not_be_defined() {
+    let rows =
+        "*Nset, nset=a, generate\n1, 14\n*Nset, nset=b\na\n*Elset, elset=c, generate\n6, 8\n";
+    let reading = abaqus::body(&with(rows)).unwrap();
+    let mesh = reading.mesh;
+    assert_eq!(mesh.node_sets.get("a").unwrap().len(), 10);
+    assert_eq!(mesh.node_sets.get("b").unwrap().len(), 10);
+    assert_eq!(mesh.element_sets.get("c").unwrap().len(), 2);
+    let left_out = "that are not defined and left out";
+    for note in [
+        format!("set `a`: numbers of a range, the first in line 24, {left_out}: 4"),
+        format!("set `c`: numbers of a range, the first in line 28, {left_out}: 1"),
+    ] {
+        assert!(reading.notes.contains(&note), "{:?}", reading.notes);
+    }
+    let listed = with("*Nset, nset=a\n1, 9\n");
+    assert_explained(
+        body(&listed).map(drop),
+        ["line 24", "node 9, which the file does not define"],
+    );
+}
+
+#[test]
 fn unused_nodes_are_left_out_also_of_sets() {
     let mesh = block(striae_mesh::CellKind::Hexahedron);
     let text = written::abaqus(&mesh)
