@@ -21,7 +21,7 @@ use crate::{
     frame::{Frame, Frames, frames},
     kinematics::{Kinematics, Pressure, Report},
     pair::Enforcement,
-    pairing::{Corners, topology},
+    pairing::{Corners, Folded, topology},
     patch::{Patch, Pressures, patches, wanted},
     ramp::{self, Ramp},
     segment::{Derivatives, SegmentDerivatives},
@@ -70,6 +70,8 @@ pub enum Collapse {
     Texture(CollapsedTexture),
     /// The facets around a node have collapsed to a line.
     Facets(CollapsedFacets),
+    /// The surfaces are folded over each other.
+    Folded,
     /// A factor of friction is not sound, or its law has failed.
     Factor(FactorFailure),
 }
@@ -80,7 +82,8 @@ pub enum Collapse {
 /// at all. The rows are the same to the last bit.
 ///
 /// # Errors
-/// When a texture has no direction left, facets have collapsed, or friction has no factor.
+/// When a texture has no direction left, facets have collapsed, the surfaces are folded over each
+/// other, or friction has no factor.
 pub fn evaluate(
     configuration: &Configuration,
     start: &Configuration,
@@ -114,7 +117,8 @@ pub fn evaluate(
                 iteration: conditions.iteration,
             };
             let asked = (slip, &slopes);
-            let patches = patches(configuration, start, selection, pressures, asked);
+            let patches = patches(configuration, start, selection, pressures, asked)
+                .map_err(|Folded| Collapse::Folded)?;
             let of = (patches.as_slice(), slip);
             let rows = weighted::kinematics(configuration, selection, &frames, tractions, of);
             (patches, rows)

@@ -5,6 +5,7 @@
 //! reach of their corners, and they overlap in the mean by no more than that and the `depth`
 //! that the bodies move towards each other.
 
+mod cover;
 mod past_edges;
 mod self_contact;
 
@@ -12,6 +13,8 @@ use rayon::prelude::*;
 use striae_mesh::{FacetId, Vec3};
 use striae_surface::{facet::Shape, node::SurfaceNode};
 
+use cover::Cover;
+pub use cover::Folded;
 use past_edges::face_past_edges;
 use self_contact::Neighbourhood;
 
@@ -177,31 +180,88 @@ pub fn paired_facets(
     slopes: &(impl Fn(&[Corners]) -> SegmentDerivatives + Sync),
     wanted: impl Fn(FacetId) -> bool + Sync,
 ) -> Vec<PairedFacets> {
-    let own = configuration.side(Side::A);
-    let itself = configuration.pair.is_self_contact();
-    let found: Vec<Vec<PairedFacets>> = (0..own.surface.facets().len())
-        .into_par_iter()
-        // Results are collected by facet, so the division of work among threads changes no bit.
-        .with_min_len(4)
-        .map(|facet| {
-            let facet = FacetId::new(facet);
-            if itself {
-                let is_wanted = |other: FacetId| wanted(facet) || wanted(other);
-                of_facet(configuration, scope, slopes, facet, is_wanted)
-            } else if wanted(facet) {
-                of_facet(configuration, scope, slopes, facet, |_| true)
-            } else {
-                Vec::new()
-            }
-        })
-        .collect();
+    let all = paired_up_to(f64::INFINITY, configuration, scope, slopes, wanted);
+    all.expect("areas have no limit")
+}
+
+/// Paired facets of a trial state as of [`paired_facets`]; `start` is the last converged one.
+///
+/// # Errors
+/// When the surfaces are folded over each other, before there is memory for all of their segments.
+pub fn paired_unless_folded(
+    configuration: &Configuration,
+    start: &Configuration,
+    scope: Scope,
+    slopes: &(impl Fn(&[Corners]) -> SegmentDerivatives + Sync),
+    wanted: impl Fn(FacetId) -> bool + Sync,
+) -> Result<Vec<PairedFacets>, Folded> {
+    let most = cover::most(configuration);
+    if let Some(all) = paired_up_to(most, configuration, scope, slopes, &wanted) {
+        return Ok(all);
+    }
+    let none = |_: &[Corners]| SegmentDerivatives::None;
+    let before = of_facets(start, scope, &none, &wanted, |paired| cover::area(&paired));
+    let most = most.max(cover::most_after(before.iter().sum()));
+    paired_up_to(most, configuration, scope, slopes, wanted).ok_or(Folded)
+}
+
+/// All paired facets; `None` where the areas of their segments sum up to more than `most`.
+fn paired_up_to(
+    most: f64,
+    configuration: &Configuration,
+    scope: Scope,
+    slopes: &(impl Fn(&[Corners]) -> SegmentDerivatives + Sync),
+    wanted: impl Fn(FacetId) -> bool + Sync,
+) -> Option<Vec<PairedFacets>> {
+    let cover = Cover::up_to(most);
+    let kept = |paired: Vec<PairedFacets>| {
+        cover.add(&paired);
+        // Once there are too many, none is needed.
+        if cover.is_exceeded() {
+            Vec::new()
+        } else {
+            paired
+        }
+    };
+    let found = of_facets(configuration, scope, slopes, wanted, kept);
+    if cover.is_exceeded() {
+        return None;
+    }
     // A list that grows as it is filled would be touched twice.
     let mut all = Vec::with_capacity(found.iter().map(Vec::len).sum());
     all.extend(found.into_iter().flatten());
     if configuration.pair.is_in_one_body() {
         self_contact::drop_hidden(configuration, &mut all);
     }
-    all
+    Some(all)
+}
+
+/// A value of the pairs of each facet of side `a`.
+fn of_facets<T: Send>(
+    configuration: &Configuration,
+    scope: Scope,
+    slopes: &(impl Fn(&[Corners]) -> SegmentDerivatives + Sync),
+    wanted: impl Fn(FacetId) -> bool + Sync,
+    value: impl Fn(Vec<PairedFacets>) -> T + Sync,
+) -> Vec<T> {
+    let own = configuration.side(Side::A);
+    let itself = configuration.pair.is_self_contact();
+    (0..own.surface.facets().len())
+        .into_par_iter()
+        // Results are collected by facet, so the division of work among threads changes no bit.
+        .with_min_len(4)
+        .map(|facet| {
+            let facet = FacetId::new(facet);
+            value(if itself {
+                let is_wanted = |other: FacetId| wanted(facet) || wanted(other);
+                of_facet(configuration, scope, slopes, facet, is_wanted)
+            } else if wanted(facet) {
+                of_facet(configuration, scope, slopes, facet, |_| true)
+            } else {
+                Vec::new()
+            })
+        })
+        .collect()
 }
 
 /// A side and the corners of a facet of it.

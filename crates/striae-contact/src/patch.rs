@@ -7,7 +7,7 @@ use striae_surface::{facet::Shape, node::SurfaceNode};
 use crate::{
     complementarity::Iteration,
     configuration::Configuration,
-    pairing::{Corners, PairedFacets, corner_sign, paired_facets},
+    pairing::{Corners, Folded, PairedFacets, corner_sign, paired_unless_folded},
     segment::{Facet, Pressed, Pressing, SegmentDerivatives, Support},
     segment_rows::{Given, SegmentRows, Slip, segment_rows},
     selection::Selection,
@@ -163,20 +163,24 @@ impl Pressures<'_> {
 }
 
 /// The segments between facets whose corners carry traction.
+///
+/// # Errors
+/// When the surfaces are folded over each other.
 pub(crate) fn patches(
     configuration: &Configuration,
     start: &Configuration,
     selection: &Selection,
     pressures: Pressures,
     (slip, slopes): (Slip, &(impl Fn(&[Corners]) -> SegmentDerivatives + Sync)),
-) -> Vec<Patch> {
+) -> Result<Vec<Patch>, Folded> {
     let own = configuration.side(Side::A);
     let carries = |facet: FacetId| {
         let corners = own.corners(facet);
         corners.iter().any(|&node| selection.carries(Side::A, node))
     };
     let scope = selection.scope();
-    paired_facets(configuration, scope, slopes, carries)
+    let paired = paired_unless_folded(configuration, start, scope, slopes, carries)?;
+    let patches = paired
         .into_par_iter()
         .with_min_len(4)
         .map(|paired| {
@@ -195,5 +199,6 @@ pub(crate) fn patches(
                 paired,
             }
         })
-        .collect()
+        .collect();
+    Ok(patches)
 }

@@ -89,6 +89,14 @@ pub enum CutBack {
         /// The node.
         node: striae_mesh::NodeId,
     },
+    /// The surfaces of a pair are folded over each other.
+    #[error(
+        "pair `{pair}`: its surfaces are folded over each other: the segments between their facets cover more than twice the area of a side"
+    )]
+    Folded {
+        /// Name of the pair.
+        pair: String,
+    },
     /// A factor of friction is not sound, or its law has failed.
     #[error("pair `{pair}`: {failure}")]
     Factor {

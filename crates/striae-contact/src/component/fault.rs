@@ -123,6 +123,9 @@ pub enum FaultKind {
         /// The node.
         node: NodeId,
     },
+    /// Surfaces are folded over each other.
+    #[error("the surfaces are folded over each other; the increment is too large")]
+    FoldedSurfaces,
     /// A factor of friction is not sound, or its law has failed.
     #[error("{cause}")]
     Factor {

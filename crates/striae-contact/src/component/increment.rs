@@ -304,6 +304,9 @@ impl Increment {
         let (side, node) = match &collapse {
             Collapse::Texture(CollapsedTexture { side, node })
             | Collapse::Facets(CollapsedFacets { side, node }) => (*side, *node),
+            Collapse::Folded => {
+                return Faults::one(format!("pairs[{pair}]"), FaultKind::FoldedSurfaces);
+            }
             Collapse::Factor(failure) => {
                 let cause = failure.to_string();
                 return Faults::one(format!("pairs[{pair}]"), FaultKind::Factor { cause });
@@ -313,7 +316,9 @@ impl Increment {
         let node = surface.map_or(NodeId(0), |surface| surface.nodes()[node.index()]);
         let kind = match collapse {
             Collapse::Texture(_) => FaultKind::CollapsedTexture { node },
-            Collapse::Facets(_) | Collapse::Factor(_) => FaultKind::CollapsedFacets { node },
+            Collapse::Facets(_) | Collapse::Folded | Collapse::Factor(_) => {
+                FaultKind::CollapsedFacets { node }
+            }
         };
         Faults::one(format!("pairs[{pair}].{side}"), kind)
     }

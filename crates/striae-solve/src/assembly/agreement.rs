@@ -82,6 +82,10 @@ fn written(fault: &CutBack) -> Vec<u8> {
             text(&mut bytes, body);
             number(&mut bytes, node.index());
         }
+        CutBack::Folded { pair } => {
+            bytes.push(4);
+            text(&mut bytes, pair);
+        }
         _ => {}
     }
     bytes
@@ -101,6 +105,9 @@ fn read(words: &mut Words) -> Option<CutBack> {
             body: words.text()?,
             set: words.text()?,
             error: words.load_error()?,
+        }),
+        4 => Some(CutBack::Folded {
+            pair: words.text()?,
         }),
         kind => {
             let (pair, body) = (words.text()?, words.text()?);
@@ -250,6 +257,9 @@ mod tests {
                 pair: "sole".to_owned(),
                 body: "disc".to_owned(),
                 node: NodeId::new(6),
+            },
+            CutBack::Folded {
+                pair: "sole".to_owned(),
             },
         ];
         for fault in faults {

@@ -66,12 +66,14 @@ pub(super) fn contacts(
 }
 
 fn not_evaluated(problem: &Problem, pair: usize, collapse: Collapse) -> CutBack {
+    let name = || problem.model.pairs[pair].name.clone();
     let (side, node) = match &collapse {
         Collapse::Texture(CollapsedTexture { side, node })
         | Collapse::Facets(CollapsedFacets { side, node }) => (*side, *node),
+        Collapse::Folded => return CutBack::Folded { pair: name() },
         Collapse::Factor(failure) => {
             return CutBack::Factor {
-                pair: problem.model.pairs[pair].name.clone(),
+                pair: name(),
                 failure: failure.clone(),
             };
         }
@@ -80,11 +82,13 @@ fn not_evaluated(problem: &Problem, pair: usize, collapse: Collapse) -> CutBack 
         .surface_node(pair, side, node)
         .unwrap_or(GlobalNode(0));
     let (body, node) = problem.named_node(global);
-    let pair = problem.model.pairs[pair].name.clone();
+    let pair = name();
     let body = problem.model.bodies[body].name.clone();
     match collapse {
         Collapse::Texture(_) => CutBack::CollapsedTexture { pair, body, node },
-        Collapse::Facets(_) | Collapse::Factor(_) => CutBack::CollapsedFacets { pair, body, node },
+        Collapse::Facets(_) | Collapse::Folded | Collapse::Factor(_) => {
+            CutBack::CollapsedFacets { pair, body, node }
+        }
     }
 }
 

@@ -33,7 +33,8 @@ pub(super) enum Taken {
     Part,
 }
 
-/// Applies a correction, halved while it turns elements inside out.
+/// Applies a correction, halved while it turns elements inside out or folds surfaces over each
+/// other.
 pub(super) fn step(
     workspace: &mut Workspace,
     setting: &Setting,
@@ -46,7 +47,9 @@ pub(super) fn step(
         let next = corrected(setting, workspace.system(), trial, correction, factor);
         match workspace.assemble(setting, &next, iteration, derivatives) {
             Ok(assembled) => return Ok((next, assembled, taken)),
-            Err(CutBack::InvertedElement { .. }) if factor > SMALLEST_PART => {
+            Err(CutBack::InvertedElement { .. } | CutBack::Folded { .. })
+                if factor > SMALLEST_PART =>
+            {
                 (factor, taken) = (0.5 * factor, Taken::Part);
             }
             Err(other) => return Err(other),

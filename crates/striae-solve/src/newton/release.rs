@@ -45,6 +45,7 @@ pub(super) fn released(
             | CutBack::Diverged { .. }
             | CutBack::Flown { .. }
             | CutBack::InvertedElement { .. }
+            | CutBack::Folded { .. }
             | CutBack::LinearSystem { .. }
     );
     let procedure = context.problem.model.steps[context.index].procedure;

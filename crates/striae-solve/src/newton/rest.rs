@@ -86,6 +86,7 @@ fn evaluated<T>(found: Result<T, CutBack>) -> Result<Option<T>, CutBack> {
             | CutBack::Load { .. }
             | CutBack::CollapsedTexture { .. }
             | CutBack::CollapsedFacets { .. }
+            | CutBack::Folded { .. }
             | CutBack::Factor { .. },
         ) => Ok(None),
         Err(reason) => Err(reason),
