@@ -38,8 +38,7 @@ pub struct Fit {
 }
 
 impl Fit {
-    /// Fit of sides of one body. It states no gap and no overlap, as what lies between them may be
-    /// the body itself.
+    /// Fit of sides between which their own body may lie. It states neither gaps nor overlaps.
     pub const WITHIN_A_BODY: Self = Self {
         gap: None,
         overlap: None,

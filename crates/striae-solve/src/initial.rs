@@ -60,8 +60,7 @@ pub fn crowded(model: &Model, pair: PairId, fit: &Fit) -> Option<InitialFault> {
 /// Initial fit of all pairs; `None` for pairs that are not valid.
 pub fn fits(model: &Model) -> Vec<Option<Fit>> {
     let of_pair = |pair: usize| {
-        let sides = &model.pairs[pair];
-        if sides.is_within_a_body() || sides.is_on_itself() {
+        if model.pairs[pair].is_in_one_body() {
             // Neither surfaces nor fibres through the body are needed.
             return Some(Fit::WITHIN_A_BODY);
         }

@@ -249,6 +249,12 @@ impl Pair {
         });
         a.is_some() && a == b
     }
+
+    /// Returns whether what lies between its sides may be their own body: not where two parts of a
+    /// body are stated as a pair, which may be pieces of their own.
+    pub fn is_in_one_body(&self) -> bool {
+        self.is_within_a_body() && !self.is_expected_to_touch()
+    }
 }
 
 /// Two surfaces of bodies that are glued from the start, see [`crate::tie`].

@@ -708,6 +708,22 @@ node_sets = [{ name = \"zmax\", numbers = [4, 5, 6, 7, 8, 9, 10, 11] }]";
 }
 
 #[test]
+fn pieces_of_a_body_that_are_a_pair_have_a_gap() {
+    let pieces = "{ positions = [[0,0,0],[1,0,0],[0,1,0],[1,1,0],[0,0,1],[1,0,1],[0,1,1],[1,1,1],[0,0,1.1],[1,0,1.1],[0,1,1.1],[1,1,1.1],[0,0,2],[1,0,2],[0,1,2],[1,1,2]], cells = [[0,1,3,2,4,5,7,6],[8,9,11,10,12,13,15,14]] }
+facet_sets = [{ name = \"zmin\", sides = [[0, 1]] }, { name = \"upper\", sides = [[1, 0]] }]
+node_sets = [{ name = \"zmax\", numbers = [0, 1, 2, 3, 12, 13, 14, 15] }]";
+    let mesh = format!("{{ generator = \"block\", {PAD} }}");
+    let other = [FLOOR, r#"b = { body = "pad", facets = "upper" }"#];
+    let found = advice(&[[&mesh, pieces], other]);
+    let mut notes = found.notes.iter();
+    assert!(notes.any(|note| note.text.contains("`sole`: smallest gap 0.1")));
+    let [warning] = &found.warnings[..] else {
+        panic!("{:?}", found.warnings);
+    };
+    assert!(warning.text.contains("are 1.000e-1 apart"), "{warning}");
+}
+
+#[test]
 fn bodies_that_touch_without_a_pair() {
     let text = r#"name = "lid"
 material = "rubber"
