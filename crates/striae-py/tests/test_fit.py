@@ -86,7 +86,12 @@ WRONG: list[tuple[dict[str, Any], str]] = [
     ({"theta": [0.0, 1.0]}, "theta: numbers: 2, but angles: 3; each needs one"),
     (
         {"spread": 0.0},
-        "fit_friction: reading 0 has the spread 0, but it must be positive",
+        "fit_friction: reading 0 has the spread 0, but it must lie between 0.000001 and 1000000",
+    ),
+    (
+        {"forces": [0.1, 5e3, 0.2]},
+        "fit_friction: reading 1 has the friction 5e3, but it must lie between -1000 and 1000:"
+        " divide the tangential by the normal force",
     ),
     (
         {"level": 95},
