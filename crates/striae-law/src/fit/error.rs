@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use super::reading::{LARGEST_FRICTION, SPREADS};
+use super::range::{LARGEST_FRICTION, SPREADS};
 use crate::friction::FrictionError;
 
 /// Reason why a law cannot be fitted.

@@ -45,6 +45,7 @@
 mod basis;
 mod error;
 mod least_squares;
+mod range;
 mod reading;
 mod specimens;
 mod student;
@@ -56,7 +57,8 @@ use std::fmt;
 use nalgebra::{DMatrix, DVector, Vector2};
 
 pub use error::FitError;
-pub use reading::{LARGEST_FRICTION, Reading, SPREADS};
+pub use range::{LARGEST_FRICTION, SPREADS};
+pub use reading::Reading;
 
 use crate::friction::{Basis, Direction, Friction, LAWS};
 use basis::Shape;

@@ -1,13 +1,9 @@
 //! Measured friction.
 
-use std::ops::RangeInclusive;
-
-use super::FitError;
-
-/// Friction over pressure beyond which a reading is refused: a force that was not divided.
-pub const LARGEST_FRICTION: f64 = 1e3;
-/// Spreads beside each other that readings can be weighted by without loss of digits.
-pub const SPREADS: RangeInclusive<f64> = 1e-6..=1e6;
+use super::{
+    FitError,
+    range::{LARGEST_FRICTION, SPREADS},
+};
 
 /// Friction measured in one direction of slip.
 #[derive(Clone, Copy, Debug, PartialEq)]
