@@ -201,8 +201,11 @@ pub fn paired_unless_folded(
     }
     let none = |_: &[Corners]| SegmentDerivatives::None;
     let before = of_facets(start, scope, &none, &wanted, |paired| cover::area(&paired));
-    let most = most.max(cover::most_after(before.iter().sum()));
-    paired_up_to(most, configuration, scope, slopes, wanted).ok_or(Folded)
+    let after = cover::most_after(before.iter().sum());
+    if after <= most {
+        return Err(Folded);
+    }
+    paired_up_to(after, configuration, scope, slopes, wanted).ok_or(Folded)
 }
 
 /// All paired facets; `None` where the areas of their segments sum up to more than `most`.
@@ -214,9 +217,10 @@ fn paired_up_to(
     wanted: impl Fn(FacetId) -> bool + Sync,
 ) -> Option<Vec<PairedFacets>> {
     let cover = Cover::up_to(most);
+    // Once there are too many, none is needed, and no more are looked for.
+    let wanted = |facet: FacetId| wanted(facet) && !cover.is_exceeded();
     let kept = |paired: Vec<PairedFacets>| {
         cover.add(&paired);
-        // Once there are too many, none is needed.
         if cover.is_exceeded() {
             Vec::new()
         } else {

@@ -301,9 +301,9 @@ impl Increment {
     }
 
     fn collapsed(&self, pair: usize, collapse: Collapse) -> Faults {
-        let (side, node) = match &collapse {
-            Collapse::Texture(CollapsedTexture { side, node })
-            | Collapse::Facets(CollapsedFacets { side, node }) => (*side, *node),
+        let (side, node, is_texture) = match collapse {
+            Collapse::Texture(CollapsedTexture { side, node }) => (side, node, true),
+            Collapse::Facets(CollapsedFacets { side, node }) => (side, node, false),
             Collapse::Folded => {
                 return Faults::one(format!("pairs[{pair}]"), FaultKind::FoldedSurfaces);
             }
@@ -314,11 +314,9 @@ impl Increment {
         };
         let surface = self.contact.members()[pair].pair.sides[side].surface();
         let node = surface.map_or(NodeId(0), |surface| surface.nodes()[node.index()]);
-        let kind = match collapse {
-            Collapse::Texture(_) => FaultKind::CollapsedTexture { node },
-            Collapse::Facets(_) | Collapse::Folded | Collapse::Factor(_) => {
-                FaultKind::CollapsedFacets { node }
-            }
+        let kind = match is_texture {
+            true => FaultKind::CollapsedTexture { node },
+            false => FaultKind::CollapsedFacets { node },
         };
         Faults::one(format!("pairs[{pair}].{side}"), kind)
     }

@@ -15,7 +15,7 @@ use crate::configuration::Configuration;
 
 /// Area that segments may cover, over the area of a side, or over what they covered before.
 const MOST: f64 = 2.0;
-/// The largest area in units of the sum.
+/// The limit in units of the sum.
 const UNITS: f64 = (1_u64 << 40) as f64;
 
 /// Sum of the areas of segments up to a limit. Integers are summed, so that the order of facets, and
@@ -38,7 +38,8 @@ impl Cover {
 
     /// Adds segments.
     pub(super) fn add(&self, paired: &[PairedFacets]) {
-        let units = area(paired) / self.limit * UNITS;
+        // One facet beyond the limit is enough; without a bound the sum of many could overflow.
+        let units = (area(paired) / self.limit * UNITS).min(2.0 * UNITS);
         self.sum.fetch_add(units as u64, Ordering::Relaxed);
     }
 
@@ -115,12 +116,16 @@ mod tests {
     }
 
     /// Number of pairs of five layers on top of one another with one below, after they were `aside`
-    /// of each other.
-    fn paired_after(aside: f64) -> Result<usize, Folded> {
+    /// of each other; `swapped` exchanges the sides.
+    fn paired_after(aside: f64, swapped: bool) -> Result<usize, Folded> {
         let heights = [0.05, 0.1, 0.15, 0.2, 0.25];
+        let mut sides = [layers(1, true), layers(heights.len(), false)];
+        if swapped {
+            sides.reverse();
+        }
         let pair = ContactPair {
             name: "layers".to_owned(),
-            sides: [layers(1, true), layers(heights.len(), false)],
+            sides,
             enforcement: Enforcement::Weighted,
             search_distance: Some(0.5),
             has_faces: false,
@@ -129,7 +134,10 @@ mod tests {
             wear_across: 1.0,
         };
         let at = |aside: f64| {
-            let x = [corners(&[0.0], 0.0), corners(&heights, aside)];
+            let mut x = [corners(&[0.0], 0.0), corners(&heights, aside)];
+            if swapped {
+                x.reverse();
+            }
             Configuration::new(&pair, x, Placement::at_rest())
         };
         let (now, start) = (at(0.0), at(aside));
@@ -147,9 +155,11 @@ mod tests {
 
     #[test]
     fn surfaces_that_cover_another_many_times_are_folded_unless_they_did_so_before() {
-        assert_eq!(paired_after(0.0), Ok(5));
-        assert_eq!(paired_after(0.1), Ok(5));
-        assert_eq!(paired_after(0.4), Err(Folded));
-        assert_eq!(paired_after(2.0), Err(Folded));
+        for swapped in [false, true] {
+            assert_eq!(paired_after(0.0, swapped), Ok(5));
+            assert_eq!(paired_after(0.1, swapped), Ok(5));
+            assert_eq!(paired_after(0.4, swapped), Err(Folded));
+            assert_eq!(paired_after(2.0, swapped), Err(Folded));
+        }
     }
 }

@@ -328,16 +328,29 @@ impl Part {
         Ok((surface, numbers))
     }
 
-    /// The mesh, with the names of instances that numbers need.
-    pub(super) fn collected(mut self, instances: Vec<String>) -> Result<Collected, MeshFileFault> {
-        let notes = self
+    /// Leaves numbers of ranges that are not defined out of sets and of surfaces made of them.
+    fn leave_out_undefined(&mut self) {
+        let undefined = self
             .node_sets
-            .leave_out(|node| self.nodes.contains_key(&node));
-        self.notes.extend(notes);
+            .undefined(|node| self.nodes.contains_key(&node));
+        self.notes.extend(self.node_sets.leave_out(&undefined));
         let solids: HashSet<u64> = self.elements.iter().map(|of| of.number).collect();
         let is_defined = |number| solids.contains(&number) || !self.lower.is_solid(number);
-        let notes = self.element_sets.leave_out(is_defined);
-        self.notes.extend(notes);
+        let undefined = self.element_sets.undefined(is_defined);
+        self.notes.extend(self.element_sets.leave_out(&undefined));
+        for (_, faces) in self.surfaces.values_mut() {
+            faces.retain(|(_, face)| match face {
+                FileFace::Side(element, _) | FileFace::Free(element) => {
+                    !undefined.contains(element)
+                }
+                FileFace::Corners(_) | FileFace::Eight(..) => true,
+            });
+        }
+    }
+
+    /// The mesh, with the names of instances that numbers need.
+    pub(super) fn collected(mut self, instances: Vec<String>) -> Result<Collected, MeshFileFault> {
+        self.leave_out_undefined();
         let sections = self.sections.iter().map(|(set, material)| SectionCard {
             set: self.element_sets.spelled(set),
             material: material.clone(),

@@ -70,14 +70,18 @@ impl LabelSets {
         self.push(label, line, member);
     }
 
+    /// Numbers of ranges that are not defined.
+    pub(super) fn undefined(&self, is_defined: impl Fn(u64) -> bool) -> HashSet<u64> {
+        let in_ranges = self.in_ranges.iter().copied();
+        in_ranges.filter(|member| !is_defined(*member)).collect()
+    }
+
     /// Leaves out numbers of ranges that are not defined, and returns notes about them.
-    pub(super) fn leave_out(&mut self, is_defined: impl Fn(u64) -> bool) -> Vec<String> {
-        let mut in_ranges = std::mem::take(&mut self.in_ranges);
-        in_ranges.retain(|member| !is_defined(*member));
+    pub(super) fn leave_out(&mut self, undefined: &HashSet<u64>) -> Vec<String> {
         let mut notes = Vec::new();
         for set in self.sets.values_mut() {
             let before = set.members.len();
-            let missing = |(_, member): &(usize, u64)| in_ranges.contains(member);
+            let missing = |(_, member): &(usize, u64)| undefined.contains(member);
             let Some(line) = set.members.iter().find(|of| missing(of)).map(|of| of.0) else {
                 continue;
             };

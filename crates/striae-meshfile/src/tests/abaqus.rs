@@ -250,13 +250,14 @@ fn ranges_of_more_numbers_than_the_file_has_rows_are_refused() {
 
 #[test]
 fn numbers_of_ranges_need_not_be_defined() {
-    let rows =
-        "*Nset, nset=a, generate\n1, 14\n*Nset, nset=b\na\n*Elset, elset=c, generate\n6, 8\n";
+    let rows = "*Nset, nset=a, generate\n1, 14\n*Nset, nset=b\na\n*Elset, elset=c, generate\n6, 8\n\
+         *Surface, name=d\nc, S1\n";
     let reading = abaqus::body(&with(rows)).unwrap();
     let mesh = reading.mesh;
     assert_eq!(mesh.node_sets.get("a").unwrap().len(), 10);
     assert_eq!(mesh.node_sets.get("b").unwrap().len(), 10);
     assert_eq!(mesh.element_sets.get("c").unwrap().len(), 2);
+    assert_eq!(mesh.facet_sets.get("d").unwrap().len(), 2);
     let left_out = "that are not defined and left out";
     for note in [
         format!("set `a`: numbers of a range, the first in line 24, {left_out}: 4"),

@@ -67,14 +67,14 @@ pub(super) fn contacts(
 
 fn not_evaluated(problem: &Problem, pair: usize, collapse: Collapse) -> CutBack {
     let name = || problem.model.pairs[pair].name.clone();
-    let (side, node) = match &collapse {
-        Collapse::Texture(CollapsedTexture { side, node })
-        | Collapse::Facets(CollapsedFacets { side, node }) => (*side, *node),
+    let (side, node, is_texture) = match collapse {
+        Collapse::Texture(CollapsedTexture { side, node }) => (side, node, true),
+        Collapse::Facets(CollapsedFacets { side, node }) => (side, node, false),
         Collapse::Folded => return CutBack::Folded { pair: name() },
         Collapse::Factor(failure) => {
             return CutBack::Factor {
                 pair: name(),
-                failure: failure.clone(),
+                failure,
             };
         }
     };
@@ -84,11 +84,9 @@ fn not_evaluated(problem: &Problem, pair: usize, collapse: Collapse) -> CutBack 
     let (body, node) = problem.named_node(global);
     let pair = name();
     let body = problem.model.bodies[body].name.clone();
-    match collapse {
-        Collapse::Texture(_) => CutBack::CollapsedTexture { pair, body, node },
-        Collapse::Facets(_) | Collapse::Folded | Collapse::Factor(_) => {
-            CutBack::CollapsedFacets { pair, body, node }
-        }
+    match is_texture {
+        true => CutBack::CollapsedTexture { pair, body, node },
+        false => CutBack::CollapsedFacets { pair, body, node },
     }
 }
 

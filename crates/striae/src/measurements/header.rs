@@ -256,8 +256,8 @@ impl Header {
         let direction = value("direction", Sign::Any);
         let theta = value("theta", Sign::Any);
         let spread = value("spread", Sign::Positive);
-        for (name, message) in out_of_range(friction, spread) {
-            let field = self.field(name).or(self.field("tangential"));
+        for (name, message) in self.out_of_range(friction, spread) {
+            let field = self.field(name);
             let column = field.map_or(1, |field| fields[field].0);
             faults.push(fault(Some((number, column)), message));
         }
@@ -288,26 +288,34 @@ impl Header {
             },
         })
     }
-}
 
-/// Quantities of a reading that are out of range, and what is needed of them.
-fn out_of_range(friction: Option<f64>, spread: Option<f64>) -> Vec<(&'static str, String)> {
-    let mut found = Vec::new();
-    if friction.is_some_and(|friction| friction.abs() > LARGEST_FRICTION) {
-        let message = format!(
-            "friction of more than {LARGEST_FRICTION}, but it is tangential over normal force; name the columns of the forces `tangential` and `normal` if it is not divided"
-        );
-        found.push(("friction", message));
+    /// Quantities of a reading that are out of range, and what is needed of them.
+    fn out_of_range(
+        &self,
+        friction: Option<f64>,
+        spread: Option<f64>,
+    ) -> Vec<(&'static str, String)> {
+        let mut found = Vec::new();
+        if friction.is_some_and(|friction| friction.abs() > LARGEST_FRICTION) {
+            found.push(match self.has("friction") {
+                true => ("friction", format!(
+                    "friction of more than {LARGEST_FRICTION}, but it is tangential over normal force; name the columns of the forces `tangential` and `normal` if it is not divided"
+                )),
+                false => ("normal", format!(
+                    "the tangential force is more than {LARGEST_FRICTION} times the normal one; leave out readings without a load"
+                )),
+            });
+        }
+        if spread.is_some_and(|spread| !SPREADS.contains(&spread)) {
+            let message = format!(
+                "`spread` must lie between {} and {}: it is in proportion to that of other readings",
+                SPREADS.start(),
+                SPREADS.end()
+            );
+            found.push(("spread", message));
+        }
+        found
     }
-    if spread.is_some_and(|spread| !SPREADS.contains(&spread)) {
-        let message = format!(
-            "`spread` must lie between {} and {}: it is in proportion to that of other readings",
-            SPREADS.start(),
-            SPREADS.end()
-        );
-        found.push(("spread", message));
-    }
-    found
 }
 
 /// Number of a name, which is added where it is new.

@@ -67,7 +67,7 @@ fn all_faults_are_told_with_their_places() {
         ),
         (
             "angle,tangential,normal\n1,1e200,1e-200\n",
-            "m.csv:2:3: friction of more than 1000",
+            "m.csv:2:9: the tangential force is more than 1000 times the normal one; leave out readings",
         ),
         (
             "angle,friction,spread\n1,.3,1e-300\n",
