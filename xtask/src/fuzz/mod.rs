@@ -62,10 +62,11 @@ enum Task {
     Minimise,
 }
 
-/// The program and its folder.
+/// The program, its folder, and targets that share a core.
 struct Place {
     program: PathBuf,
     folder: PathBuf,
+    sharing: u64,
 }
 
 impl Place {
@@ -80,7 +81,7 @@ impl Place {
 /// When they cannot be built or run, or an input fails.
 pub fn fuzz(arguments: &[String]) -> Result<(), Fault> {
     let options = Options::read(arguments)?;
-    let place = place()?;
+    let place = place(options.jobs)?;
     if options.task == Task::Minimise {
         let mut targets = options.targets.iter();
         return targets.try_for_each(|target| minimise::minimised(&place, target));
@@ -99,7 +100,7 @@ pub fn fuzz(arguments: &[String]) -> Result<(), Fault> {
 }
 
 /// Builds the program and makes its folder, without the findings of an earlier time.
-fn place() -> Result<Place, Fault> {
+fn place(jobs: usize) -> Result<Place, Fault> {
     let unreadable = |path: &Path| {
         let path = path.to_owned();
         move |cause| Fault::Unreadable { path, cause }
@@ -128,7 +129,13 @@ fn place() -> Result<Place, Fault> {
         fs::create_dir_all(&part).map_err(unreadable(&part))?;
     }
     let folder = fs::canonicalize(&folder).map_err(unreadable(&folder))?;
-    Ok(Place { program, folder })
+    let cores = thread::available_parallelism().map_or(1, usize::from);
+    let sharing = jobs.div_ceil(cores) as u64;
+    Ok(Place {
+        program,
+        folder,
+        sharing,
+    })
 }
 
 /// Searches with all targets, some at a time.

@@ -16,7 +16,9 @@ const STARTS: u32 = 10;
 const MEMORY: u64 = 2000;
 /// Addresses that the process may reserve, in kilobytes: threads reserve more than they use.
 const ADDRESSES: u64 = 1000 * MEMORY + 2_000_000;
-/// Wall time after which an input is given up, in seconds; the target counts processor time.
+/// Wall time after which an input is given up, in seconds, by a target that has a core to itself.
+///
+/// It only ends loops: the target itself judges the processor time of an input, within less.
 const PATIENCE: u64 = 60;
 
 /// Counts and findings of a target.
@@ -102,7 +104,7 @@ pub fn started(place: &Place, target: &str, log: &Path, own: &[&str]) -> Result<
             place.of("findings", &format!("{target}-")),
         ))
         .arg(format!("-rss_limit_mb={MEMORY}"))
-        .arg(format!("-timeout={PATIENCE}"))
+        .arg(format!("-timeout={}", PATIENCE * place.sharing))
         .args(["-print_final_stats=1", "-use_value_profile=0"]);
     if !own.iter().any(|word| word.contains("merge=")) {
         let own = Path::new("crates/striae-mutants/corpus/fuzz").join(target);
