@@ -5,14 +5,18 @@
 //! reach of their corners, and they overlap in the mean by no more than that and the `depth`
 //! that the bodies move towards each other.
 
+mod candidates;
 mod cover;
 mod past_edges;
 mod self_contact;
+#[cfg(test)]
+mod tests;
 
 use rayon::prelude::*;
 use striae_mesh::{FacetId, Vec3};
 use striae_surface::{facet::Shape, node::SurfaceNode};
 
+use candidates::Candidates;
 use cover::Cover;
 pub use cover::Folded;
 use past_edges::face_past_edges;
@@ -250,6 +254,7 @@ fn of_facets<T: Send>(
 ) -> Vec<T> {
     let own = configuration.side(Side::A);
     let itself = configuration.pair.is_self_contact();
+    let candidates = Candidates::new(configuration, scope);
     (0..own.surface.facets().len())
         .into_par_iter()
         // Results are collected by facet, so the division of work among threads changes no bit.
@@ -258,9 +263,9 @@ fn of_facets<T: Send>(
             let facet = FacetId::new(facet);
             value(if itself {
                 let is_wanted = |other: FacetId| wanted(facet) || wanted(other);
-                of_facet(configuration, scope, slopes, facet, is_wanted)
+                of_facet(&candidates, scope, slopes, facet, is_wanted)
             } else if wanted(facet) {
-                of_facet(configuration, scope, slopes, facet, |_| true)
+                of_facet(&candidates, scope, slopes, facet, |_| true)
             } else {
                 Vec::new()
             })
@@ -272,12 +277,13 @@ fn of_facets<T: Send>(
 pub type Corners = (Side, [SurfaceNode; 4]);
 
 fn of_facet(
-    configuration: &Configuration,
+    candidates: &Candidates,
     scope: Scope,
     slopes: &impl Fn(&[Corners]) -> SegmentDerivatives,
     facet: FacetId,
     is_wanted: impl Fn(FacetId) -> bool,
 ) -> Vec<PairedFacets> {
+    let configuration = candidates.configuration();
     let own = configuration.side(Side::A);
     let corners = own.corners(facet);
     let positions = own.corner_positions(facet);
@@ -310,11 +316,8 @@ fn of_facet(
     let other = configuration.side(sides[1]);
     let itself = configuration.pair.is_self_contact();
     let one_body = configuration.pair.is_in_one_body();
-    let farthest = farthest(configuration);
-    // The box has to contain whatever the larger facets of the other side can reach.
-    let bounds = own.bounds(facet).inflated(farthest + scope.depth);
     let mut found = Vec::new();
-    for item in other.tree.meeting(&bounds) {
+    for item in candidates.of(facet, reach) {
         let opposite = FacetId(item);
         // Each pair of facets of one surface would be found twice.
         if itself && (opposite <= facet || !is_wanted(opposite)) {
@@ -339,11 +342,10 @@ fn of_facet(
         let Some(segment) = segment_facing([&a, &b], limit, weights, slopes) else {
             continue;
         };
-        let reach = if configuration.pair.is_rigid() {
-            reach
-        } else {
+        let reach = match configuration.pair.is_rigid() {
+            true => reach,
             // The larger reach of both, so that the pairing does not depend on which side is `a`.
-            reach.max(self::reach(configuration, sides[1], &corners_b))
+            false => reach.max(self::reach(configuration, sides[1], &corners_b)),
         };
         let paired = PairedFacets {
             sides,
@@ -375,16 +377,4 @@ fn joined(a: &[Vec3; 4], b: &[Vec3; 4]) -> [Vec3; 8] {
 fn reach(configuration: &Configuration, side: Side, corners: &[SurfaceNode; 4]) -> f64 {
     let reaches = corners.map(|node| configuration.reach(side, node));
     reaches.into_iter().fold(0.0, f64::max)
-}
-
-/// Largest reach of any facet.
-fn farthest(configuration: &Configuration) -> f64 {
-    let sides = configuration.pair.deformable_sides().iter();
-    let largest = sides.map(|&side| configuration.side(side).largest_size);
-    let largest = largest.fold(0.0, f64::max);
-    configuration
-        .pair
-        .search_distance
-        .unwrap_or(0.0)
-        .max(0.5 * largest)
 }

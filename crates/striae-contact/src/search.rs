@@ -32,7 +32,8 @@ impl Bounds {
         }
     }
 
-    fn union(&self, other: &Self) -> Self {
+    /// The smallest box around both.
+    pub fn union(&self, other: &Self) -> Self {
         Self {
             low: self.low.inf(&other.low),
             high: self.high.sup(&other.high),
@@ -62,6 +63,12 @@ impl Bounds {
             range = [range[0].max(one.min(other)), range[1].min(one.max(other))];
         }
         range[0] <= range[1]
+    }
+
+    /// Least product of a vector in the box with `n`.
+    pub fn least_along(&self, n: &Vec3) -> f64 {
+        let products = [&self.low, &self.high].map(|end| end.component_mul(n));
+        products[0].inf(&products[1]).sum()
     }
 
     /// Returns whether the boxes have a point in common.
@@ -143,6 +150,17 @@ impl Tree {
 
     /// Items whose boxes meet `bounds`, ascending.
     pub fn meeting(&self, bounds: &Bounds) -> Vec<u32> {
+        let meets = |of: &Bounds| of.meets(bounds);
+        self.found(|_, of| meets(of), |_, of| meets(of))
+    }
+
+    /// Items for which `is_found` holds, ascending; of a node none is looked at where `has_any` does
+    /// not hold. Both are given a number and a box.
+    pub fn found(
+        &self,
+        has_any: impl Fn(usize, &Bounds) -> bool,
+        is_found: impl Fn(u32, &Bounds) -> bool,
+    ) -> Vec<u32> {
         let mut found = Vec::new();
         let mut stack = Vec::with_capacity(32);
         if !self.nodes.is_empty() {
@@ -150,7 +168,7 @@ impl Tree {
         }
         while let Some(index) = stack.pop() {
             let node = &self.nodes[index];
-            if !node.bounds.meets(bounds) {
+            if !has_any(index, &node.bounds) {
                 continue;
             }
             match node.children {
@@ -159,12 +177,29 @@ impl Tree {
                     self.items[node.range[0]..node.range[1]]
                         .iter()
                         .copied()
-                        .filter(|&item| self.boxes[item as usize].meets(bounds)),
+                        .filter(|&item| is_found(item, &self.boxes[item as usize])),
                 ),
             }
         }
         found.sort_unstable();
         found
+    }
+
+    /// Values of the nodes by number, each joined from those of all its items.
+    pub fn joined<T: Copy>(&self, of_item: impl Fn(u32) -> T, join: impl Fn(T, T) -> T) -> Vec<T> {
+        let mut last_first: Vec<T> = Vec::with_capacity(self.nodes.len());
+        for node in self.nodes.iter().rev() {
+            let at = |child: usize| last_first[self.nodes.len() - 1 - child];
+            let items = &self.items[node.range[0]..node.range[1]];
+            let value = match node.children {
+                // Children have larger numbers.
+                Some(children) => Some(children.map(at)).map(|[one, other]| join(one, other)),
+                None => items.iter().copied().map(&of_item).reduce(&join),
+            };
+            last_first.push(value.expect("a node has items"));
+        }
+        last_first.reverse();
+        last_first
     }
 
     /// The box around all items.
@@ -281,6 +316,26 @@ mod tests {
                 .filter(|&item| boxes[item as usize].meets(&query))
                 .collect();
             prop_assert_eq!(Tree::new(boxes).meeting(&query), expected);
+        }
+
+        #[test]
+        fn nodes_join_all_of_their_items(boxes in boxes()) {
+            let tree = Tree::new(boxes.clone());
+            let joined = tree.joined(|item| boxes[item as usize], |a, b| a.union(&b));
+            let bounds: Vec<Bounds> = tree.nodes.iter().map(|node| node.bounds).collect();
+            prop_assert_eq!(joined, bounds);
+        }
+
+        #[test]
+        fn the_least_product_is_that_of_a_corner(boxes in boxes(), n in [-1.0..1.0_f64; 3]) {
+            let n = Vec3::from(n);
+            for of in &boxes {
+                let corners = (0..8).map(|corner| {
+                    Vec3::from_fn(|axis, _| [of.low, of.high][corner >> axis & 1][axis])
+                });
+                let least = corners.map(|x| x.dot(&n)).fold(f64::INFINITY, f64::min);
+                prop_assert!((of.least_along(&n) - least).abs() < 1e-12);
+            }
         }
 
         #[test]

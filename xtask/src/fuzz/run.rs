@@ -18,7 +18,7 @@ const MEMORY: u64 = 2000;
 const ADDRESSES: u64 = 1000 * MEMORY + 2_000_000;
 /// Wall time after which an input is given up, in seconds, by a target that has a core to itself.
 ///
-/// It only ends loops: the target itself judges the processor time of an input, within less.
+/// Only loops last as long: the target itself judges the processor time of an input, within less.
 const PATIENCE: u64 = 60;
 
 /// Counts and findings of a target.
