@@ -327,8 +327,11 @@ mod tests {
         }
 
         #[test]
-        fn the_least_product_is_that_of_a_corner(boxes in boxes(), n in [-1.0..1.0_f64; 3]) {
-            let n = Vec3::from(n);
+        fn the_least_product_is_that_of_a_corner(
+            boxes in boxes(),
+            (x, y, z) in (-1.0..1.0_f64, -1.0..1.0_f64, -1.0..1.0_f64),
+        ) {
+            let n = Vec3::new(x, y, z);
             for of in &boxes {
                 let corners = (0..8).map(|corner| {
                     Vec3::from_fn(|axis, _| [of.low, of.high][corner >> axis & 1][axis])
