@@ -32,6 +32,19 @@ impl Bounds {
         }
     }
 
+    /// The box with the two faces across each axis moved out by the `margins` along it.
+    pub fn inflated_along(&self, margins: &Vec3) -> Self {
+        Self {
+            low: self.low - margins,
+            high: self.high + margins,
+        }
+    }
+
+    /// Largest size of each component of a vector in the box.
+    pub fn largest(&self) -> Vec3 {
+        self.low.abs().sup(&self.high.abs())
+    }
+
     /// The smallest box around both.
     pub fn union(&self, other: &Self) -> Self {
         Self {

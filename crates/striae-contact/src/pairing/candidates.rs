@@ -1,15 +1,25 @@
 //! Facets that may be paired with one of the other side.
 //!
-//! A facet with the box `B`, reach `r` and normal `n` is paired with none of a node of the tree over
-//! the other side, with the box `C`, the largest reach `R` and a box of normals `m`, where
+//! A point of a segment lies on both facets at places whose difference is a gap along the normal
+//! of the pair, and somewhere the gap is within the larger reach of both and the depth of
+//! overlaps. That normal lies between the normal `n` of a facet and the opposite of `m`, that of the
+//! other one. As facets face each other, with `n . m <= FACING`, each of its components is at most
 //!
 //! ```text
-//! the distance of B and C is above max(r, R) + depth, or   n . m > FACING   for all m.
+//! N_i = max(|n_i|, |m_i|)/c,    c^2 = (1 - FACING)/2.
 //! ```
 //!
-//! The largest reach of a whole side would not do: side faces of a thin plate have facets that are
-//! much smaller than those of its upper face, so that each would be tried with all of them. Nor would
-//! distances alone, as facets of one face are near each other, too.
+//! So a facet with the box `B` and the reach `r` is paired with none of a node of the tree over the
+//! other side, with the box `C`, the largest reach `R` and normals in a box of their own, where
+//!
+//! ```text
+//! B and C are farther apart than (max(r, R) + depth) min(N_i, 1) along an axis i, or
+//! n . m > FACING for all m.
+//! ```
+//!
+//! The largest reach of a whole side, in all directions, would not do: side faces of a thin plate
+//! have facets that are much smaller, or much more slender, than those of its upper face, and each
+//! would be tried with all of them.
 
 use striae_mesh::{FacetId, Vec3};
 use striae_surface::facet::Shape;
@@ -18,17 +28,22 @@ use super::{Scope, reach};
 use crate::{
     configuration::{Configuration, Snapshot},
     search::Bounds,
-    segment::{FACING, Facet, facet_normal},
+    segment::{FACING, Facet, ON_EDGE, facet_normal},
     side::Side,
 };
 
 /// Round-off of a cosine.
 const ROUND_OFF: f64 = 1e-9;
+/// Part of the root of the area of a facet by which segments may stand out, as corners count as on
+/// edges.
+const BEYOND: f64 = 4.0 * ON_EDGE;
 
 /// Facets of the side that side `a` faces.
 pub(super) struct Candidates<'a> {
     configuration: &'a Configuration<'a>,
     depth: f64,
+    /// Of each alone.
+    facets: Vec<Group>,
     /// Of the nodes of the tree.
     nodes: Vec<Group>,
 }
@@ -54,16 +69,22 @@ impl Group {
 impl<'a> Candidates<'a> {
     /// Facets of the side that side `a` faces; of a plane none.
     pub(super) fn new(configuration: &'a Configuration<'a>, scope: Scope) -> Self {
-        let nodes = match configuration.plane() {
-            Some(_) => Vec::new(),
+        let (facets, nodes) = match configuration.plane() {
+            Some(_) => (Vec::new(), Vec::new()),
             None => {
-                let tree = &configuration.facing(Side::A).tree;
-                tree.joined(|facet| group(configuration, FacetId(facet)), Group::join)
+                let facing = configuration.facing(Side::A);
+                let all = (0..facing.surface.facets().len()).map(FacetId::new);
+                let facets: Vec<_> = all.map(|facet| group(configuration, facet)).collect();
+                let nodes = facing
+                    .tree
+                    .joined(|facet| facets[facet as usize], Group::join);
+                (facets, nodes)
             }
         };
         Self {
             configuration,
             depth: scope.depth,
+            facets,
             nodes,
         }
     }
@@ -81,15 +102,21 @@ impl<'a> Candidates<'a> {
             return Vec::new();
         };
         let bounds = own.bounds(facet);
-        let is_near =
-            |of: &Bounds, others: f64| of.meets(&bounds.inflated(reach.max(others) + self.depth));
+        let [p, q, r, s] = own.corner_positions(facet);
+        let area = 0.5 * (r - p).cross(&(s - q)).norm();
+        let beyond = BEYOND * area.sqrt();
+        let shortest = (0.5 * (1.0 - FACING)).sqrt();
+        let may_meet = |of: &Bounds, group: &Group| {
+            let distance = reach.max(group.reach) + self.depth;
+            let normals = n.abs().sup(&group.normals.largest()) / shortest;
+            let margins = normals.map(|largest| distance * largest.min(1.0) + beyond);
+            of.meets(&bounds.inflated_along(&margins))
+                && group.normals.least_along(&n) <= FACING + ROUND_OFF
+        };
         let tree = &configuration.facing(Side::A).tree;
         tree.found(
-            |node, of| {
-                let group = &self.nodes[node];
-                is_near(of, group.reach) && group.normals.least_along(&n) <= FACING + ROUND_OFF
-            },
-            |facet, of| is_near(of, reach_of(configuration, FacetId(facet))),
+            |node, of| may_meet(of, &self.nodes[node]),
+            |facet, of| may_meet(of, &self.facets[facet as usize]),
         )
     }
 }
@@ -100,23 +127,15 @@ fn group(configuration: &Configuration, facet: FacetId) -> Group {
         low: Vec3::repeat(-1.0),
         high: Vec3::repeat(1.0),
     };
-    let normal = normal(configuration.facing(Side::A), facet);
-    Group {
-        reach: reach_of(configuration, facet),
-        normals: normal.map_or(all, |normal| Bounds::around([normal])),
-    }
-}
-
-/// Reach of a facet of the side that side `a` faces; a rigid one has none.
-fn reach_of(configuration: &Configuration, facet: FacetId) -> f64 {
     let [_, side] = configuration.pair.facing_sides();
-    match configuration.pair.is_rigid() {
-        true => 0.0,
-        false => reach(
-            configuration,
-            side,
-            &configuration.side(side).corners(facet),
-        ),
+    let facing = configuration.side(side);
+    Group {
+        reach: match configuration.pair.is_rigid() {
+            // A rigid facet reaches no farther than the other one.
+            true => 0.0,
+            false => reach(configuration, side, &facing.corners(facet)),
+        },
+        normals: normal(facing, facet).map_or(all, |normal| Bounds::around([normal])),
     }
 }
 
