@@ -6,6 +6,8 @@ use crate::{Mesh, NodeId};
 
 /// Distance over the extent of the mesh within which two nodes are at the same place.
 const SAME: f64 = 1e-9;
+/// Distance over the edges of their elements within which they are, in a mesh of slender elements.
+const OF_EDGE: f64 = 1e-3;
 
 impl Mesh {
     /// Nodes of each piece: elements of one piece share nodes, those of two share none.
@@ -39,7 +41,9 @@ impl Mesh {
             .positions
             .iter()
             .fold(start, |[low, high], x| [low.inf(x), high.sup(x)]);
-        let tolerance = SAME * (high - low).norm();
+        let extent = SAME * (high - low).norm();
+        let edges = self.shortest_edges().into_iter();
+        let tolerances: Vec<f64> = edges.map(|edge| extent.min(OF_EDGE * edge)).collect();
         let mut order: Vec<usize> = (0..self.positions.len()).collect();
         // Along an oblique direction, in which hardly two nodes of a regular mesh are level.
         let direction = crate::Vec3::new(0.6180, 0.5698, 0.5415);
@@ -49,16 +53,35 @@ impl Mesh {
         for (at, &node) in order.iter().enumerate() {
             let near = order[at + 1..]
                 .iter()
-                .take_while(|&&other| along[other] - along[node] <= tolerance);
+                .take_while(|&&other| along[other] - along[node] <= tolerances[node]);
             let place = self.positions[node];
-            for &other in near.filter(|&&other| (self.positions[other] - place).norm() <= tolerance)
-            {
+            let is_there = |other: usize| {
+                let tolerance = tolerances[node].min(tolerances[other]);
+                (self.positions[other] - place).norm() <= tolerance
+            };
+            for &other in near.filter(|&&other| is_there(other)) {
                 pairs.push([node.min(other), node.max(other)].map(NodeId::new));
             }
         }
         pairs.sort_unstable();
         pairs.dedup_by_key(|pair| pair[1]);
         pairs
+    }
+
+    /// Distance of each node from the nearest other one of its elements; infinite without any.
+    fn shortest_edges(&self) -> Vec<f64> {
+        let mut shortest = vec![f64::INFINITY; self.positions.len()];
+        for corners in self.elements() {
+            for (at, node) in corners.iter().enumerate() {
+                for other in &corners[at + 1..] {
+                    let [one, two] = [node, other].map(|node| node.index());
+                    let length = (self.positions[one] - self.positions[two]).norm();
+                    shortest[one] = shortest[one].min(length);
+                    shortest[two] = shortest[two].min(length);
+                }
+            }
+        }
+        shortest
     }
 }
 
@@ -99,6 +122,17 @@ mod tests {
         let lengths: Vec<usize> = pieces.iter().map(Vec::len).collect();
         assert_eq!(lengths, [8, 8]);
         assert_eq!((pieces[0][0], pieces[1][0]), (NodeId(0), NodeId(8)));
+    }
+
+    #[test]
+    fn nodes_of_slender_elements_are_not_at_one_place() {
+        let slender = Block {
+            size: Vec3::new(1.0, 1e6, 0.05),
+            divisions: [1, 1, 500],
+            ..Block::default()
+        };
+        let slender = slender.mesh().expect("a block");
+        assert!(slender.coincident_nodes().is_empty());
     }
 
     #[test]
