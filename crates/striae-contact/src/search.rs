@@ -203,13 +203,15 @@ impl Tree {
         let mut last_first: Vec<T> = Vec::with_capacity(self.nodes.len());
         for node in self.nodes.iter().rev() {
             let at = |child: usize| last_first[self.nodes.len() - 1 - child];
-            let items = &self.items[node.range[0]..node.range[1]];
-            let value = match node.children {
+            let items = self.items[node.range[0]..node.range[1]].iter();
+            last_first.push(match node.children {
                 // Children have larger numbers.
-                Some(children) => Some(children.map(at)).map(|[one, other]| join(one, other)),
-                None => items.iter().copied().map(&of_item).reduce(&join),
-            };
-            last_first.push(value.expect("a node has items"));
+                Some([one, other]) => join(at(one), at(other)),
+                None => {
+                    let joined = items.copied().map(&of_item).reduce(&join);
+                    joined.expect("a leaf has items")
+                }
+            });
         }
         last_first.reverse();
         last_first

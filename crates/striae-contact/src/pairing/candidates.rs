@@ -34,9 +34,11 @@ use crate::{
 
 /// Round-off of a cosine.
 const ROUND_OFF: f64 = 1e-9;
-/// Part of the root of the area of a facet by which segments may stand out, as corners count as on
-/// edges.
-const BEYOND: f64 = 4.0 * ON_EDGE;
+/// Part of the root of the area of a facet by which segments may stand out of both facets together.
+///
+/// Corners count as on edges that they are [`ON_EDGE`] away from, seen along the normal of the pair,
+/// to which facets stand with a cosine of `-FACING` at least.
+const BEYOND: f64 = 2.0 * ON_EDGE / -FACING;
 
 /// Facets of the side that side `a` faces.
 pub(super) struct Candidates<'a> {

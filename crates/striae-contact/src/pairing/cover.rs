@@ -80,12 +80,14 @@ pub(super) fn area(paired: &[PairedFacets]) -> f64 {
 #[cfg(test)]
 mod tests {
     use striae_mesh::{NodeId, Vec3};
-    use striae_surface::topology::Surface;
 
     use super::*;
     use crate::{
-        pair::{ContactPair, Enforcement, Geometry, PairedSurface},
-        pairing::{Corners, Scope, compliances, paired_facets, paired_unless_folded},
+        pair::PairedSurface,
+        pairing::{
+            Corners, Scope, compliances, paired_facets, paired_unless_folded,
+            tests::{pair_of, side},
+        },
         placement::Placement,
         segment::SegmentDerivatives,
     };
@@ -97,13 +99,7 @@ mod tests {
             if up { [a, b, c, d] } else { [a, d, c, b] }
         };
         let facets: Vec<_> = (0..count).map(ring).collect();
-        PairedSurface {
-            geometry: Geometry::Deformable(Surface::new(&facets)),
-            stiffness: 1.0,
-            texture: None,
-            behind: Vec::new(),
-            enclosure: None,
-        }
+        side(&facets)
     }
 
     /// Corners of layers at heights, each moved aside from the last.
@@ -123,16 +119,7 @@ mod tests {
         if swapped {
             sides.reverse();
         }
-        let pair = ContactPair {
-            name: "layers".to_owned(),
-            sides,
-            enforcement: Enforcement::Weighted,
-            search_distance: Some(0.5),
-            has_faces: false,
-            one_body: false,
-            wear: [0.0; 2],
-            wear_across: 1.0,
-        };
+        let pair = pair_of(sides, Some(0.5));
         let at = |aside: f64| {
             let mut x = [corners(&[0.0], 0.0), corners(&heights, aside)];
             if swapped {

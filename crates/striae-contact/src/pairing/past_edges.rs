@@ -77,12 +77,14 @@ fn gap_at(paired: &PairedFacets, start: &[Vec<Vec3>; 2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use striae_mesh::NodeId;
-    use striae_surface::topology::Surface;
 
     use super::*;
     use crate::{
-        pair::{ContactPair, Enforcement, Geometry, PairedSurface},
-        pairing::{Corners, Scope, compliances, paired_facets},
+        pair::ContactPair,
+        pairing::{
+            Corners, Scope, compliances, paired_facets,
+            tests::{pair_of, side},
+        },
         placement::Placement,
         segment::SegmentDerivatives,
     };
@@ -93,22 +95,11 @@ mod tests {
         let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
         let wall = |x: f64, z: f64| corners.map(|[y, up]| Vec3::new(x, y, z + up)).to_vec();
         let node = NodeId::new;
-        let side = |facet: [usize; 4]| PairedSurface {
-            geometry: Geometry::Deformable(Surface::new(&[facet.map(node)])),
-            stiffness: 1.0,
-            texture: None,
-            behind: Vec::new(),
-            enclosure: None,
-        };
+        let wall_of = |facet: [usize; 4]| side(&[facet.map(node)]);
+        let sides = [wall_of([0, 1, 2, 3]), wall_of([0, 3, 2, 1])];
         let pair = ContactPair {
-            name: "walls".to_owned(),
-            sides: [side([0, 1, 2, 3]), side([0, 3, 2, 1])],
-            enforcement: Enforcement::Weighted,
-            search_distance: None,
             has_faces: true,
-            one_body: false,
-            wear: [0.0; 2],
-            wear_across: 1.0,
+            ..pair_of(sides, None)
         };
         let lower = wall(0.0, -1.0);
         let start = [lower.clone(), wall(gap, -sank)];

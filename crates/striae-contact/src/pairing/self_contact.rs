@@ -148,8 +148,8 @@ mod tests {
     use super::*;
     use crate::{
         body_edge::beyond_edges,
-        pair::{Behind, ContactPair, Enforcement, Geometry, PairedSurface},
-        pairing::{Corners, Scope, compliances, paired_facets},
+        pair::{Behind, ContactPair, Geometry, PairedSurface},
+        pairing::{Corners, Scope, compliances, paired_facets, tests::pair_of},
         placement::Placement,
         segment::SegmentDerivatives,
     };
@@ -215,18 +215,13 @@ mod tests {
                 .collect(),
             enclosure: None,
         };
+        let sides = [
+            side(Geometry::Deformable(surface), of_facets),
+            side(Geometry::Itself, Vec::new()),
+        ];
         let pair = ContactPair {
-            name: "sheets".to_owned(),
-            sides: [
-                side(Geometry::Deformable(surface), of_facets),
-                side(Geometry::Itself, Vec::new()),
-            ],
-            enforcement: Enforcement::Weighted,
-            search_distance: Some(0.2),
             has_faces: true,
-            one_body: false,
-            wear: [0.0; 2],
-            wear_across: 1.0,
+            ..pair_of(sides, Some(0.2))
         };
         let at = Configuration::new(&pair, [x, Vec::new()], Placement::at_rest());
         let compliances = compliances(&at);

@@ -1,14 +1,16 @@
-//! Facets of different sizes.
+//! Facets of different sizes and directions.
 
-use striae_mesh::{NodeId, Vec3};
-use striae_surface::topology::Surface;
+use striae_mesh::{FacetId, NodeId, Vec3};
+use striae_surface::{facet::Shape, topology::Surface};
+use striae_verify::Random;
 
-use super::{Corners, Scope, compliances, paired_facets};
+use super::{Candidates, Corners, PairedFacets, Scope, compliances, joined, paired_facets, reach};
 use crate::{
     configuration::Configuration,
     pair::{ContactPair, Enforcement, Geometry, PairedSurface},
     placement::Placement,
-    segment::SegmentDerivatives,
+    segment::{FACING, Facet, SegmentDerivatives, segment_facing},
+    side::Side,
 };
 
 /// A unit square of `count` by `count` facets at a height, that looks upwards or downwards, with
@@ -32,30 +34,39 @@ fn square(count: usize, height: f64, up: bool) -> (PairedSurface, Vec<Vec3>) {
             if up { [a, b, c, d] } else { [a, d, c, b] }
         })
         .collect();
-    let side = PairedSurface {
-        geometry: Geometry::Deformable(Surface::new(&facets)),
+    (side(&facets), x.collect())
+}
+
+/// A deformable side of these facets.
+pub(super) fn side(facets: &[[NodeId; 4]]) -> PairedSurface {
+    PairedSurface {
+        geometry: Geometry::Deformable(Surface::new(facets)),
         stiffness: 1.0,
         texture: None,
         behind: Vec::new(),
         enclosure: None,
-    };
-    (side, x.collect())
+    }
 }
 
-/// Number of pairs of squares with so many facets along an edge, across a gap.
-fn paired(counts: [usize; 2], gap: f64, search_distance: Option<f64>) -> usize {
-    let (a, x_a) = square(counts[0], 0.0, true);
-    let (b, x_b) = square(counts[1], gap, false);
-    let pair = ContactPair {
-        name: "squares".to_owned(),
-        sides: [a, b],
+/// A pair of two sides.
+pub(super) fn pair_of(sides: [PairedSurface; 2], search_distance: Option<f64>) -> ContactPair {
+    ContactPair {
+        name: "pair".to_owned(),
+        sides,
         enforcement: Enforcement::Weighted,
         search_distance,
         has_faces: false,
         one_body: false,
         wear: [0.0; 2],
         wear_across: 1.0,
-    };
+    }
+}
+
+/// Number of pairs of squares with so many facets along an edge, across a gap.
+fn paired(counts: [usize; 2], gap: f64, search_distance: Option<f64>) -> usize {
+    let (a, x_a) = square(counts[0], 0.0, true);
+    let (b, x_b) = square(counts[1], gap, false);
+    let pair = pair_of([a, b], search_distance);
     let at = Configuration::new(&pair, [x_a, x_b], Placement::at_rest());
     let compliances = compliances(&at);
     let scope = Scope {
@@ -79,4 +90,81 @@ fn the_larger_of_two_facets_decides_how_far_they_look() {
             assert_eq!(paired(counts, 1.51 * half, search), 0, "{counts:?}");
         }
     }
+}
+
+/// Squares and slender rectangles all over a cube, looking in all directions, with their places.
+fn scattered(random: &mut Random, count: usize) -> (PairedSurface, Vec<Vec3>) {
+    let mut x = Vec::new();
+    for _ in 0..count {
+        let (turn, middle) = (random.rotation(), random.vector3());
+        let half = [0, 1].map(|_| 10f64.powf(-0.6 + 0.8 * random.vector3().x));
+        let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+        // Warped a little, as facets of a mesh are.
+        x.extend(corners.map(|[p, q]| {
+            let flat = Vec3::new(p * half[0], q * half[1], 0.0);
+            middle + turn * flat + random.vector3() * (0.05 * half[0].min(half[1]))
+        }));
+    }
+    let facets = (0..count).map(|facet| [0, 1, 2, 3].map(|corner| NodeId::new(4 * facet + corner)));
+    (side(&facets.collect::<Vec<_>>()), x)
+}
+
+/// Holds the facets that are looked at against all there are.
+#[test]
+fn no_pair_is_lost_by_looking_at_candidates_alone() {
+    let mut random = Random::new(41);
+    let (mut near, mut tried, mut all) = (0, 0, 0);
+    for scene in 0..60 {
+        let (a, x_a) = scattered(&mut random, 30);
+        let (b, x_b) = scattered(&mut random, 30);
+        let pair = pair_of([a, b], None);
+        let at = Configuration::new(&pair, [x_a, x_b], Placement::at_rest());
+        let mut compliances = compliances(&at);
+        if scene % 3 > 0 {
+            // As far as a normal can be from the middle of two: that of one facet.
+            compliances[scene % 3 - 1].fill(0.0);
+        }
+        let depth = 0.1 * (scene % 4) as f64;
+        let scope = Scope {
+            compliances: &compliances,
+            depth,
+            start: None,
+        };
+        let candidates = Candidates::new(&at, scope);
+        for facet in (0..30).map(FacetId::new) {
+            let own = at.side(Side::A);
+            let of_facet = candidates.of(facet, reach(&at, Side::A, &own.corners(facet)));
+            tried += of_facet.len();
+            for opposite in (0..30).map(FacetId::new) {
+                all += 1;
+                let both = [(Side::A, facet), (Side::B, opposite)];
+                let [one, other] = both.map(|(side, facet)| Facet {
+                    corners: at.side(side).corner_positions(facet),
+                    shape: Shape::Quadrilateral,
+                });
+                let weights = both.map(|(side, facet)| compliances[side][facet.index()]);
+                let none = SegmentDerivatives::None;
+                let Some(segment) = segment_facing([&one, &other], FACING, weights, none) else {
+                    continue;
+                };
+                let corners = both.map(|(side, facet)| at.side(side).corners(facet));
+                let reaches = [0, 1].map(|of| reach(&at, both[of].0, &corners[of]));
+                let found = PairedFacets {
+                    sides: Side::BOTH,
+                    facets: both.map(|(_, facet)| Some(facet)),
+                    corners,
+                    x: joined(&one.corners, &other.corners),
+                    reach: reaches[0].max(reaches[1]),
+                    segment,
+                };
+                let gap = found.mean_gap(&at);
+                let is_near = gap <= found.reach || found.least_gap(&at) <= found.reach;
+                if -gap <= found.reach + depth && is_near {
+                    near += 1;
+                    assert!(of_facet.contains(&(opposite.0)), "{scene}: {both:?}");
+                }
+            }
+        }
+    }
+    assert!(near > 1000 && tried < all / 2, "{near} of {tried} of {all}");
 }
