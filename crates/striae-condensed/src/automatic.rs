@@ -477,6 +477,33 @@ impl Automatic {
         }
     }
 
+    /// Solves `tangent x = rhs`, of which the residual is reduced by `reduction`, with the factors
+    /// there are of a matrix close to `tangent`; nothing changes for matrices to come.
+    ///
+    /// `None` where they are those of another method than the condensed one or too far from
+    /// `tangent`.
+    ///
+    /// # Errors
+    /// When `rhs` or `x` do not fit.
+    pub fn solve_beside(
+        &self,
+        tangent: &Tangent,
+        rhs: &[f64],
+        x: &mut [f64],
+        reduction: f64,
+    ) -> Result<Option<SolveReport>, SolveError> {
+        let is_made = matches!(self.factored, Some(Made::Condensed(_)));
+        let condensed = self.condensed.as_ref().filter(|_| is_made);
+        let Some(condensed) = condensed.filter(|condensed| condensed.serves(tangent)) else {
+            return Ok(None);
+        };
+        let ends = Ends {
+            iterations: MOST,
+            reduction,
+        };
+        condensed.solve_nearby(tangent, (rhs, x), ends)
+    }
+
     /// Returns whether calling [`solve_other_contact`](Self::solve_other_contact) pays now.
     pub fn has_interior(&self) -> bool {
         let condensed = self.condensed.as_ref();

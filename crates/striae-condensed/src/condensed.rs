@@ -234,6 +234,18 @@ impl Condensed {
         refinement::solve_nearby(tangent, &numeric.scaling, &factors, (rhs, x), ends)
     }
 
+    /// Returns whether the factors can precondition another matrix: what they know by a diagonal
+    /// alone has no other entry there either.
+    pub(crate) fn serves(&self, tangent: &Tangent) -> bool {
+        let Some(numeric) = &self.numeric else {
+            return false;
+        };
+        let known = numeric.contact.known.iter().enumerate();
+        let mut known = known.filter(|(_, known)| **known).map(|(u, _)| u);
+        self.partition.fits(tangent)
+            && known.all(|u| tangent.row(u).all(|(v, a)| (u == v) == (a != 0.0)))
+    }
+
     /// Factors the contact system of a matrix on the older interior and solves once.
     ///
     /// `None` as for [`refresh`](Self::refresh).

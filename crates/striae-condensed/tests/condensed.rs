@@ -457,6 +457,35 @@ fn other_contact_is_solved_on_the_same_interior() {
 }
 
 #[test]
+fn factors_of_a_matrix_nearby_serve_another_and_stay_as_they_are() {
+    let blocks = Blocks::new(18, 9);
+    let rhs = load(blocks.partition.unknowns());
+    let mut solver = Automatic::new(Choice::ByCost);
+    let matrix = blocks.matrix([1.0, 2.0], Contact::Part(9));
+    solution(&mut solver, (&blocks, &matrix), &rhs);
+    let mut before = vec![0.0; rhs.len()];
+    solver.solve(&matrix, &rhs, &mut before).unwrap();
+    let near = blocks.matrix([1.01, 1.98], Contact::Part(9));
+    let mut x = vec![0.0; rhs.len()];
+    let report = solver.solve_beside(&near, &rhs, &mut x, 1e-9).unwrap();
+    assert!(report.is_some());
+    let (expected, _) = solution(
+        &mut Automatic::new(Choice::Multifrontal),
+        (&blocks, &near),
+        &rhs,
+    );
+    let error = difference(&blocks, &x, &expected);
+    // The reduction of the residual times a factor for the condition.
+    assert!(error < 1e-6, "{error:e}");
+    // Unknowns that the factors know by a diagonal have other rows here.
+    let closed = blocks.matrix([1.0, 2.0], Contact::Stick);
+    let report = solver.solve_beside(&closed, &rhs, &mut x, 1e-9).unwrap();
+    assert!(report.is_none());
+    solver.solve(&matrix, &rhs, &mut x).unwrap();
+    assert!(x == before);
+}
+
+#[test]
 fn threads_do_not_change_a_bit() {
     let blocks = Blocks::new(12, 6);
     let rhs = load(blocks.partition.unknowns());

@@ -29,6 +29,9 @@ use crate::{
 pub trait Observer: IterationObserver {
     /// A step begins.
     fn step(&mut self, index: usize, name: &str);
+    /// An increment has converged, in a workspace that still has the factors of its last
+    /// iterations; [`Observer::increment`] follows.
+    fn converged(&mut self, _progress: Progress, _increment: &Increment, _workspace: &Workspace) {}
     /// An increment has converged.
     fn increment(&mut self, progress: Progress, increment: &Increment) -> Continue;
     /// A point that was requested by the response to [`Observer::increment`] or
@@ -320,6 +323,7 @@ fn run_step(
         let attempted = attempted.and_then(|made| division.doubted(context, state, made, fraction));
         let next = match attempted {
             Ok(increment) => {
+                observer.converged(progress, &increment, workspace);
                 let next = observer.increment(progress, &increment);
                 division.converged(fraction, &increment, step.increments.largest);
                 *state = increment.state;

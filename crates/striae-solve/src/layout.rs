@@ -54,6 +54,20 @@ impl Extent {
         }
         grown
     }
+
+    /// Union of this extent and another one of the same problem.
+    #[must_use]
+    pub(crate) fn or(mut self, other: &Self) -> Self {
+        self.nodes.resize_with(other.nodes.len(), Default::default);
+        let sides = self.nodes.iter_mut().flatten();
+        for (own, other) in sides.zip(other.nodes.iter().flatten()) {
+            own.resize(other.len(), false);
+            own.iter_mut()
+                .zip(other)
+                .for_each(|(own, other)| *own |= other);
+        }
+        self
+    }
 }
 
 impl Layout {

@@ -162,11 +162,17 @@ impl Sensitivities {
         look_farther(&self.problem, &mut self.search, reason);
     }
 
-    /// Moves the neighbours to the end of an increment of the run.
+    /// Moves the neighbours to the end of an increment of the run, whose workspace lends its
+    /// factors.
     ///
     /// # Errors
     /// Why one of them cannot follow.
-    pub fn increment(&mut self, progress: Progress, increment: &Increment) -> Result<(), CutBack> {
+    pub fn increment(
+        &mut self,
+        progress: Progress,
+        increment: &Increment,
+        run: &Workspace,
+    ) -> Result<(), CutBack> {
         let search = std::mem::take(&mut self.search);
         let context = StepContext::new(&self.problem, progress.step, &self.start);
         let base = Base {
@@ -200,10 +206,10 @@ impl Sensitivities {
             };
             set_out.push([neighbour(0)?, neighbour(1)?]);
         }
-        linearise(&base, &mut self.workspace)?;
+        let mut linearised = linearise(&base, run, &mut self.workspace)?;
         let mut arrived = Vec::with_capacity(self.neighbours.len());
         for (of, two) in self.neighbours.iter().zip(set_out) {
-            arrived.push(moved(&base, two, of.largest, &mut self.workspace)?);
+            arrived.push(moved(&base, two, of.largest, &mut linearised)?);
         }
         for (of, moved) in self.neighbours.iter_mut().zip(arrived) {
             of.arrive(progress.step, moved);

@@ -8,7 +8,7 @@ use crate::{
 ///
 /// Every solution is refined with the given matrix and its residual is checked: an
 /// answer that comes back with `Ok` is accurate to [`SolveReport::backward_error`].
-pub trait LinearSolver: Send {
+pub trait LinearSolver: Send + Sync {
     /// Orders the unknowns and predicts the cost; forgets earlier factorisations.
     fn analyse(&mut self, structure: &Structure) -> Result<Cost, SolveError>;
 

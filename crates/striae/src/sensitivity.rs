@@ -12,7 +12,7 @@ use striae_output::{
 };
 use striae_solve::{
     drive::Progress,
-    newton::Increment,
+    newton::{Increment, Workspace},
     outcome::CutBack,
     problem::Problem,
     sensitivity::{Kink, Neighbours, Parameter, Sensitivities},
@@ -164,11 +164,12 @@ impl Followed {
         &mut self,
         progress: Progress,
         increment: &Increment,
+        run: &Workspace,
     ) -> Result<(), OutputError> {
         if self.ended.is_some() {
             return Ok(());
         }
-        if let Err(reason) = self.sensitivities.increment(progress, increment) {
+        if let Err(reason) = self.sensitivities.increment(progress, increment, run) {
             self.ended = Some((progress.time, reason));
             return Ok(());
         }

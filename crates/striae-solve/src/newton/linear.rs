@@ -81,6 +81,23 @@ impl Linear {
         Ok((correction, report?))
     }
 
+    /// The solution for a tangent close to the one that was factored, up to a part of the residual,
+    /// without a change for later ones; `None` where the factors do not serve.
+    pub(super) fn solved_beside(
+        &self,
+        tangent: &Tangent,
+        residual: &[f64],
+        part: f64,
+    ) -> Result<Option<Vec<f64>>, SolveError> {
+        let Self::Alone(solver) = self else {
+            return Ok(None);
+        };
+        let rhs: Vec<f64> = residual.iter().map(|r| -r).collect();
+        let mut correction = vec![0.0; rhs.len()];
+        let solved = rayon::scope(|_| solver.solve_beside(tangent, &rhs, &mut correction, part))?;
+        Ok(solved.map(|_| correction))
+    }
+
     /// The solution with another contact on older factors of the bodies; `None` where there are
     /// none.
     pub(super) fn solved_with_other_contact(

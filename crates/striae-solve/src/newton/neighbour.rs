@@ -25,6 +25,7 @@ use striae_contact::{
     side::Side, unknowns::Status,
 };
 use striae_mesh::Vec3;
+use striae_sparse::SolveError;
 use striae_surface::node::SurfaceNode;
 
 use super::{
@@ -46,8 +47,9 @@ use crate::{
     state::State,
 };
 
-/// Part of the residual of a correction that is as good as nothing.
-const EXACT: f64 = 1e-12;
+/// Parts of the residual that the first correction and the others leave: errors of differences by
+/// `h` are some 1e-9 of them, and the others are a remainder themselves.
+const PARTS: [f64; 2] = [1e-9, 0.1];
 /// Part of the first correction below which another one changes nothing.
 const NOTHING: f64 = 1e-7;
 /// Remainder where a neighbour keeps other nodes than the increment, so that nothing is known of it.
@@ -204,14 +206,27 @@ fn iterated<'a>(
     Ok(attempt.selections)
 }
 
-/// Evaluates and factors the tangent at the end of an increment.
+/// Tangent at the end of an increment, by which its neighbours are moved.
+pub(crate) struct Linearised<'a> {
+    problem: &'a Problem,
+    workspace: &'a mut Workspace,
+    /// The workspace of the run, while the factors of its last iterations serve.
+    run: Option<&'a Workspace>,
+}
+
+/// Evaluates the tangent at the end of an increment that `run` has come to.
 ///
 /// # Errors
 /// Why it cannot be.
-pub(crate) fn linearise(base: &Base, workspace: &mut Workspace) -> Result<(), CutBack> {
+pub(crate) fn linearise<'a>(
+    base: &Base<'a>,
+    run: &'a Workspace,
+    workspace: &'a mut Workspace,
+) -> Result<Linearised<'a>, CutBack> {
     let (context, increment) = (base.context, base.increment);
     let state = &increment.state;
     let imposed = context.imposed_after(base.before, base.fraction, state.time);
+    workspace.extend_to(context.problem, run);
     workspace.prepare(context.problem, &increment.selections);
     let of_pairs = state.pairs.iter().zip(&base.before.pairs);
     let tractions = of_pairs.map(|(after, before)| {
@@ -238,20 +253,45 @@ pub(crate) fn linearise(base: &Base, workspace: &mut Workspace) -> Result<(), Cu
         imposed: &imposed,
     };
     workspace.assemble(&setting, &trial, Iteration::Given, Derivatives::First)?;
-    let factored = workspace.factor();
-    factored.map_err(|error| unsolved(context.problem, workspace, error))
+    Ok(Linearised {
+        problem: context.problem,
+        workspace,
+        run: Some(run),
+    })
 }
 
-fn unsolved(
-    problem: &Problem,
-    workspace: &mut Workspace,
-    error: striae_sparse::SolveError,
-) -> CutBack {
+impl Linearised<'_> {
+    /// Solves for a correction, up to a part of the residual.
+    ///
+    /// The factors of the run are as good as none of its own: both matrices are nearly the same.
+    fn correction(&mut self, residual: &[f64], part: f64) -> Result<Vec<f64>, CutBack> {
+        let solved = self.solved(residual, part);
+        solved.map_err(|error| unsolved(self.problem, self.workspace, error))
+    }
+
+    fn solved(&mut self, residual: &[f64], part: f64) -> Result<Vec<f64>, SolveError> {
+        if let Some(run) = self.run {
+            let beside = self.workspace.correction_beside(run, residual, part)?;
+            if let Some(correction) = beside {
+                return Ok(correction);
+            }
+            self.run = None;
+            self.workspace.factor()?;
+        }
+        self.workspace.chord_correction(residual, part)
+    }
+}
+
+fn unsolved(problem: &Problem, workspace: &mut Workspace, error: SolveError) -> CutBack {
     linear_system(problem, workspace.system().numbers(), error)
 }
 
-/// Moves two neighbours to the end of an increment whose tangent has been factored, after they
-/// have differed by `largest` at most so far.
+/// Residuals of two neighbours.
+fn both(two: &[Neighbour; 2], workspace: &mut Workspace) -> Result<[Assembled; 2], CutBack> {
+    Ok([two[0].assembled(workspace)?, two[1].assembled(workspace)?])
+}
+
+/// Moves two neighbours to the end of an increment with its tangent, after they have differed by `largest` at most so far.
 ///
 /// # Errors
 /// Why a state of theirs cannot be evaluated.
@@ -259,10 +299,10 @@ pub(crate) fn moved(
     base: &Base,
     mut two: [Neighbour; 2],
     mut largest: Size,
-    workspace: &mut Workspace,
+    linearised: &mut Linearised,
 ) -> Result<Moved, CutBack> {
     let problem = base.context.problem;
-    let mut assembled = [two[0].assembled(workspace)?, two[1].assembled(workspace)?];
+    let mut assembled = both(&two, linearised.workspace)?;
     let ends = &base.increment.state;
     let carried = two
         .each_ref()
@@ -271,15 +311,15 @@ pub(crate) fn moved(
     let round_off = Size::round_off(ends);
     let (mut first, mut part): (Option<Size>, f64) = (None, f64::INFINITY);
     let mut last = Size::default();
-    for _ in 0..CORRECTIONS {
+    for number in 0..CORRECTIONS {
         let [less, more] = assembled.each_ref().map(|assembled| &assembled.residual);
         let half: Vec<f64> = more
             .iter()
             .zip(less)
             .map(|(more, less)| 0.5 * (more - less))
             .collect();
-        let correction = workspace.chord_correction(&half, EXACT);
-        let correction = correction.map_err(|error| unsolved(problem, workspace, error))?;
+        let correction = linearised.correction(&half, PARTS[number.min(1)])?;
+        let workspace = &mut *linearised.workspace;
         last = Size::of(&correction, problem, &workspace.system().layout);
         let first = first.get_or_insert_with(|| last.max(&carried));
         let before = std::mem::replace(&mut part, last.over(&first.max(&round_off)));
@@ -293,7 +333,7 @@ pub(crate) fn moved(
             let (setting, trial) = (neighbour.setting(), &neighbour.trial);
             neighbour.trial = corrected(&setting, system, trial, &correction, factor);
         }
-        assembled = [two[0].assembled(workspace)?, two[1].assembled(workspace)?];
+        assembled = both(&two, workspace)?;
     }
     largest = first.map_or(largest, |first| largest.max(&first));
     let differences = largest.beyond(&round_off);

@@ -84,14 +84,25 @@ impl Workspace {
 
     /// Makes sure the layout covers all kept nodes.
     pub(super) fn extend(&mut self, problem: &Problem, selections: &[Selection]) {
-        let known = self
-            .system
-            .as_ref()
-            .map(|system| system.layout.extent().clone());
-        let extent = known.clone().unwrap_or_default().with(selections);
-        if known.as_ref() != Some(&extent) {
+        let known = self.extent();
+        let extent = known.cloned().unwrap_or_default().with(selections);
+        if known != Some(&extent) {
             self.lay_out(problem, extent);
         }
+    }
+
+    /// Makes sure the layout covers that of another workspace of the same problem.
+    pub(super) fn extend_to(&mut self, problem: &Problem, other: &Self) {
+        let (known, other) = (self.extent(), other.extent());
+        let extent = known.cloned().unwrap_or_default();
+        let extent = other.iter().fold(extent, |extent, other| extent.or(other));
+        if known != Some(&extent) {
+            self.lay_out(problem, extent);
+        }
+    }
+
+    fn extent(&self) -> Option<&Extent> {
+        self.system.as_ref().map(|system| system.layout.extent())
     }
 
     fn lay_out(&mut self, problem: &Problem, extent: Extent) {
@@ -297,6 +308,21 @@ impl Workspace {
     ) -> Result<Vec<f64>, SolveError> {
         self.solution(residual, part)
             .map(|(correction, _)| correction)
+    }
+
+    /// Solves for a correction with the matrix of this workspace and the factors of another one,
+    /// which stay as they are; `None` where they do not serve.
+    pub(super) fn correction_beside(
+        &self,
+        other: &Self,
+        residual: &[f64],
+        part: f64,
+    ) -> Result<Option<Vec<f64>>, SolveError> {
+        let system = self.system.as_ref().expect("the workspace was prepared");
+        match other.extent() == Some(system.layout.extent()) {
+            true => other.solver.solved_beside(&system.tangent, residual, part),
+            false => Ok(None),
+        }
     }
 
     fn solution(&mut self, residual: &[f64], part: f64) -> Result<(Vec<f64>, Age), SolveError> {

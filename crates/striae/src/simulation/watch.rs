@@ -4,7 +4,7 @@ use striae_contact::evaluation::Evaluation;
 use striae_output::OutputError;
 use striae_solve::{
     drive::{self, Continue, Point, Progress},
-    newton::{Increment, IterationObserver},
+    newton::{Increment, IterationObserver, Workspace},
     norms::Norms,
     outcome::CutBack,
     problem::Problem,
@@ -50,6 +50,13 @@ impl drive::Observer for Watch<'_> {
         }
     }
 
+    fn converged(&mut self, progress: Progress, increment: &Increment, workspace: &Workspace) {
+        if let Some(followed) = &mut self.followed {
+            let taken_down = followed.increment(progress, increment, workspace);
+            self.failure = self.failure.take().or(taken_down.err());
+        }
+    }
+
     fn increment(&mut self, progress: Progress, increment: &Increment) -> Continue {
         let next = self.observer.increment(&Converged {
             progress,
@@ -64,10 +71,6 @@ impl drive::Observer for Watch<'_> {
         self.increments = progress.increment;
         let taken_down = self.log.increment(self.problem, progress, increment);
         self.failure = self.failure.take().or(taken_down.err());
-        if let Some(followed) = &mut self.followed {
-            let taken_down = followed.increment(progress, increment);
-            self.failure = self.failure.take().or(taken_down.err());
-        }
         if self.log.keeps(progress.increment) {
             self.proceed(next, Continue::Keep)
         } else {
