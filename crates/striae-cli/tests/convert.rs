@@ -116,6 +116,23 @@ fn a_converted_model_of_two_instances_pushes_with_the_right_force() {
 }
 
 #[test]
+fn a_deck_beside_its_model_moves_with_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let [before, after] = ["before", "after"].map(|name| folder.path().join(name));
+    fs::create_dir_all(before.join("models")).unwrap();
+    fs::create_dir_all(before.join("runs/first")).unwrap();
+    fs::write(before.join("models/model.inp"), MODEL).unwrap();
+    let out = "runs/first/model.toml";
+    let (code, _, errors) = said(&before, &["convert", "models/model.inp", "--out", out]);
+    assert_eq!(code, Some(0), "{errors}");
+    let deck = fs::read_to_string(before.join(out)).unwrap();
+    assert!(deck.contains("\"../../models/model.inp\""), "{deck}");
+    fs::rename(&before, &after).unwrap();
+    let (code, _, errors) = said(&after, &["check", out]);
+    assert_eq!(code, Some(0), "{errors}");
+}
+
+#[test]
 fn what_the_deck_lacks_is_told() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();

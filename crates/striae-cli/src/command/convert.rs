@@ -3,7 +3,7 @@
 use std::{
     fs,
     io::Write,
-    path::{Path, PathBuf},
+    path::{Component, Path, PathBuf},
 };
 
 use crate::{failure::Failure, shell::word};
@@ -48,7 +48,8 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The path of the model from the folder of the deck; from the root where they lie apart.
+/// The path of the model from the folder of the deck; from the root where they have nothing else in
+/// common.
 fn reference(model: &Path, deck: &Path) -> String {
     let folder = |path: &Path| {
         let parent = path.parent().unwrap_or(Path::new(""));
@@ -61,9 +62,16 @@ fn reference(model: &Path, deck: &Path) -> String {
     };
     let (of_model, of_deck) = (folder(model), folder(deck));
     let name = model.file_name().unwrap_or_default();
-    let path = match of_model.strip_prefix(&of_deck) {
-        Ok(within) => within.join(name),
-        Err(_) => of_model.join(name),
+    let common = of_deck.ancestors().find(|one| of_model.starts_with(one));
+    let path = match common.filter(|common| common.parent().is_some()) {
+        Some(common) => {
+            let [down, up] = [&of_model, &of_deck].map(|path| path.strip_prefix(common));
+            let up = up.into_iter().flat_map(Path::components);
+            let up = up.map(|_| Component::ParentDir.as_os_str());
+            up.collect::<PathBuf>().join(down.unwrap_or(&of_model))
+        }
+        None => of_model,
     };
+    let path = path.join(name);
     path.to_string_lossy().replace('\\', "/")
 }
