@@ -7,6 +7,9 @@ use striae_figure::Dots;
 
 use super::view::OVERSAMPLING;
 
+/// Distance, in fine dots, up to which surfaces lie on each other.
+const FLUSH: f64 = 0.5;
+
 /// Red, green and blue, 0 to 1.
 pub type Color = [f64; 3];
 
@@ -103,9 +106,11 @@ impl Canvas {
     }
 
     /// Lays another canvas over this one, of which so much is seen where it is nearer.
+    ///
+    /// Surfaces that touch stay uncovered: round-off would decide dot by dot which is nearer.
     pub fn veil(&mut self, over: &Self, share: f64) {
         for at in 0..self.colors.len() {
-            if over.depths[at] < self.depths[at] {
+            if over.depths[at] < self.depths[at] - FLUSH {
                 let [below, above] = [self.colors[at], over.colors[at]];
                 self.colors[at] = [0, 1, 2].map(|i| (1.0 - share) * below[i] + share * above[i]);
             }
@@ -176,6 +181,16 @@ mod tests {
         before.fill(FRONT.map(|[x, y, _]| [x, y, 0.0]), |_| [0.0; 3]);
         canvas.veil(&before, 0.5);
         assert_eq!(*canvas.dots().dot([4, 4]), [128, 0, 0]);
+    }
+
+    #[test]
+    fn a_veil_leaves_what_it_touches() {
+        let mut canvas = Canvas::new([20, 20]);
+        canvas.fill(FRONT, |_| [1.0, 0.0, 0.0]);
+        let mut flush = canvas.blank();
+        flush.fill(FRONT.map(|[x, y, z]| [x, y, z - 1e-9]), |_| [0.0; 3]);
+        canvas.veil(&flush, 1.0);
+        assert_eq!(*canvas.dots().dot([4, 4]), [255, 0, 0]);
     }
 
     #[test]

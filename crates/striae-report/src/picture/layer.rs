@@ -185,17 +185,15 @@ impl<'a> Layers<'a> {
         for layer in &self.shown {
             layer.draw(view, canvas, self.limits);
         }
-        if self.subject.is_contact {
-            let mut veil = canvas.blank();
-            for layer in &self.others {
-                layer.draw(view, &mut veil, self.limits);
-            }
-            canvas.veil(&veil, VEIL);
-        } else {
-            for layer in &self.others {
-                layer.draw(view, canvas, self.limits);
-            }
+        let mut others = canvas.blank();
+        for layer in &self.others {
+            layer.draw(view, &mut others, self.limits);
         }
+        let share = match self.subject.is_contact {
+            true => VEIL,
+            false => 1.0,
+        };
+        canvas.veil(&others, share);
     }
 }
 
