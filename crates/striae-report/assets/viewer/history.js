@@ -155,7 +155,11 @@ function beginHistory() {
   byId("history").hidden = false;
   const groups = quantities();
   const titles = [...groups.keys()];
-  const force = titles.find((title) => title.startsWith("force on a ")) ?? titles.find((title) => title.startsWith("reaction")) ?? titles[0];
+  // With contact of everything most pairs never touch.
+  const largest = (title) => groups.get(title).reduce(
+    (most, { column }) => results.rows.reduce((most, row) => Math.max(most, Math.abs(row[column]) || 0), most), 0);
+  const forces = titles.filter((title) => title.startsWith("force on a "));
+  const force = forces.sort((one, other) => largest(other) - largest(one))[0] ?? titles.find((title) => title.startsWith("reaction")) ?? titles[0];
   const energies = titles.find((title) => title === "energies") ?? titles.at(-1);
   for (const first of [force, energies]) {
     const plot = new Plot(groups, first);
