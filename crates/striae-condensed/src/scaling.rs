@@ -6,6 +6,8 @@ use striae_sparse::{Equilibration, SolveError, check_finite, root, sparse_elimin
 
 /// Number of rows that a thread processes at a time.
 const ROWS: usize = 512;
+/// Largest entry that a column of multipliers has at least for its scaling, over that of all.
+const FAINT: f64 = 1e-3;
 
 /// Factors from the diagonal of the bulk, for the condensed solver; `rows` are the entries
 /// between kept unknowns.
@@ -13,8 +15,11 @@ const ROWS: usize = 512;
 /// Bulk unknowns and their rows get `1/sqrt|a_ii|`. The multipliers of a
 /// supervariable are scaled alike, to the largest entry that bulk rows have in
 /// their columns: one that acts on prescribed unknowns leaves no more than
-/// round-off there. Their rows are scaled to the largest entry. Multipliers
-/// that only other multipliers know come last.
+/// round-off there. Their rows are scaled to the largest entry.
+///
+/// A node that hardly touches has hardly an entry in bulk rows. Columns scaled to entries below
+/// [`FAINT`] would make unknowns, and with them rows, of any size: what is left of those rows would
+/// hide what is left of the equilibrium from whoever measures a residual of the scaled system.
 pub(crate) fn by_diagonal(
     partition: &Partition,
     tangent: &Tangent,
@@ -41,7 +46,7 @@ pub(crate) fn with_multipliers(
         rows: bulk,
     };
     let multipliers = || (0..kept.unknowns.len()).filter(|&k| kept.is_multiplier[k]);
-    let mut largest = largest_in_columns((kept, rows), &scaling.rows, |k| !kept.is_multiplier[k]);
+    let mut largest = largest_in_columns((kept, rows), &scaling.rows);
     for i in partition.kept().map(|i| i.0) {
         let group = partition.multiplier_group(i);
         if !partition.bulk_group(i).is_empty() && !group.is_empty() {
@@ -51,19 +56,9 @@ pub(crate) fn with_multipliers(
             own.fill(common);
         }
     }
-    // Columns of multipliers that bulk rows do not know count as nothing at first.
-    let known = |k: usize| largest[k] != 0.0;
+    let faint = FAINT * largest.iter().copied().fold(0.0, f64::max);
     for k in multipliers() {
-        let factor = if known(k) { inverse(largest[k]) } else { 0.0 };
-        scaling.columns[kept.unknowns[k] as usize] = factor;
-    }
-    scale_rows(&mut scaling, (kept, rows));
-    if multipliers().all(known) {
-        return scaling;
-    }
-    let late = largest_in_columns((kept, rows), &scaling.rows, |k| kept.is_multiplier[k]);
-    for k in multipliers().filter(|&k| !known(k)) {
-        scaling.columns[kept.unknowns[k] as usize] = inverse(late[k]);
+        scaling.columns[kept.unknowns[k] as usize] = inverse(largest[k].max(faint));
     }
     scale_rows(&mut scaling, (kept, rows));
     scaling
@@ -89,17 +84,14 @@ fn scale_rows(scaling: &mut Equilibration, (kept, rows): (&Kept, &[Row])) {
     }
 }
 
-/// Largest magnitude of the entries in the column of each multiplier in the rows that are
-/// wanted, times factors of the rows; zero in all other columns.
-fn largest_in_columns(
-    (kept, rows): (&Kept, &[Row]),
-    factors: &[f64],
-    wanted: impl Fn(usize) -> bool + Sync,
-) -> Vec<f64> {
+/// Largest magnitude of the entries in the column of each multiplier in the rows of the bulk,
+/// times factors of the rows; zero in all other columns.
+fn largest_in_columns((kept, rows): (&Kept, &[Row]), factors: &[f64]) -> Vec<f64> {
     let chunks = rows.par_chunks(ROWS).enumerate();
     let found = chunks.map(|(chunk, rows)| {
         let mut largest = vec![0.0_f64; kept.unknowns.len()];
-        for (k, row) in (chunk * ROWS..).zip(rows).filter(|(k, _)| wanted(*k)) {
+        let rows = (chunk * ROWS..).zip(rows);
+        for (k, row) in rows.filter(|(k, _)| !kept.is_multiplier[*k]) {
             let factor = factors[kept.unknowns[k] as usize];
             for &(column, a) in row {
                 let column = column as usize;
