@@ -6,7 +6,7 @@ use striae_sparse::{Equilibration, SolveError, check_finite, root, sparse_elimin
 
 /// Number of rows that a thread processes at a time.
 const ROWS: usize = 512;
-/// Largest entry that a column of multipliers has at least for its scaling, over that of all.
+/// Smallest entry that a column of multipliers is scaled to, over the largest of all columns.
 const FAINT: f64 = 1e-3;
 
 /// Factors from the diagonal of the bulk, for the condensed solver; `rows` are the entries

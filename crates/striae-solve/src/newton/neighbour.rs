@@ -47,8 +47,8 @@ use crate::{
     state::State,
 };
 
-/// Parts of the residual that the first correction and the others leave: errors of differences by
-/// `h` are some 1e-9 of them, and the others are a remainder themselves.
+/// Parts of the residual that the first correction and the others leave. Central differences are
+/// off by some 1e-9 of the first, and the others only measure and take away what it leaves.
 const PARTS: [f64; 2] = [1e-9, 0.1];
 /// Part of the first correction below which another one changes nothing.
 const NOTHING: f64 = 1e-7;
@@ -263,7 +263,7 @@ pub(crate) fn linearise<'a>(
 impl Linearised<'_> {
     /// Solves for a correction, up to a part of the residual.
     ///
-    /// The factors of the run are as good as none of its own: both matrices are nearly the same.
+    /// GMRES makes up for what the factors of the run, of an iteration shortly before, differ by.
     fn correction(&mut self, residual: &[f64], part: f64) -> Result<Vec<f64>, CutBack> {
         let solved = self.solved(residual, part);
         solved.map_err(|error| unsolved(self.problem, self.workspace, error))
@@ -291,7 +291,8 @@ fn both(two: &[Neighbour; 2], workspace: &mut Workspace) -> Result<[Assembled; 2
     Ok([two[0].assembled(workspace)?, two[1].assembled(workspace)?])
 }
 
-/// Moves two neighbours to the end of an increment with its tangent, after they have differed by `largest` at most so far.
+/// Moves two neighbours to the end of an increment with its tangent, after they have differed by
+/// `largest` at most so far.
 ///
 /// # Errors
 /// Why a state of theirs cannot be evaluated.
