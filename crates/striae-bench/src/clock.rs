@@ -1,7 +1,7 @@
 //! Median times of repeated work.
 
 use serde_json::{Value, json};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// Time in which repetitions are made, s.
 const BUDGET: f64 = 1.0;
@@ -44,14 +44,26 @@ fn ticks() -> Option<f64> {
 
 /// Median and spread of the time of `work`, which handles so many `items`.
 pub fn timed(group: &str, name: &str, items: usize, mut work: impl FnMut()) -> Value {
+    timed_by(group, name, items, || {
+        let started = Instant::now();
+        work();
+        started.elapsed()
+    })
+}
+
+/// Median and spread of the time that `work`, which handles so many `items`, says a part of it took.
+pub fn timed_by(
+    group: &str,
+    name: &str,
+    items: usize,
+    mut work: impl FnMut() -> Duration,
+) -> Value {
     let mut times = Vec::new();
     let begin = Instant::now();
     work();
     let first = Seconds::now(begin);
     while times.len() < FEWEST || times.len() < MOST && begin.elapsed().as_secs_f64() < BUDGET {
-        let started = Instant::now();
-        work();
-        times.push(started.elapsed().as_secs_f64());
+        times.push(work().as_secs_f64());
     }
     let cpu = Seconds::now(begin).since(first).cpu / times.len() as f64;
     times.sort_by(f64::total_cmp);

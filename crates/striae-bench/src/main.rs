@@ -12,6 +12,7 @@
 mod agree;
 mod clock;
 mod compare;
+mod component;
 mod element;
 mod growth;
 mod parts;

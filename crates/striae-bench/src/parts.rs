@@ -1,6 +1,6 @@
 //! Times of the parts of an iteration.
 
-use crate::{clock::timed, compare, element, scene, yardstick};
+use crate::{clock::timed, compare, component, element, scene, yardstick};
 use nalgebra::Matrix3;
 use serde_json::{Value, json};
 use std::{error::Error, hint::black_box};
@@ -29,12 +29,13 @@ use striae_surface::normal::nodal_normals;
 
 type Results = Result<Vec<Value>, Box<dyn Error>>;
 
-const GROUPS: [&str; 8] = [
+const GROUPS: [&str; 9] = [
     "law",
     "element",
     "surface",
     "search",
     "assembly",
+    "component",
     "factor",
     "iteration",
     "cases",
@@ -56,6 +57,11 @@ pub fn all(groups: &[String], sizes: &[usize]) -> Results {
             "surface" | "search" | "assembly" | "factor" => {
                 for &size in sizes {
                     results.extend(of_scene(group, size)?);
+                }
+            }
+            "component" => {
+                for &size in sizes {
+                    results.extend(component::all(size)?);
                 }
             }
             "iteration" => {

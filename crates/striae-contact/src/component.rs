@@ -35,9 +35,10 @@
 //! forces balance to round-off. The rows are derived in [`crate::complementarity`],
 //! [`crate::segment`] and [`crate::evaluation`].
 //!
-//! The tangent consists of triplets, of which several of one place add up. It is the derivative of
-//! the residual where the slip rows hold, and elsewhere their globalised derivative. It is not
-//! symmetric with friction, and has zeros on the diagonal: it takes a direct solver with pivoting.
+//! The tangent consists of triplets, one for each place, by row and then by column. It is the
+//! derivative of the residual where the slip rows hold, and elsewhere their globalised derivative.
+//! It is not symmetric with friction, and has zeros on the diagonal: it takes a direct solver with
+//! pivoting.
 //!
 //! # First iteration
 //!
@@ -71,6 +72,7 @@ mod shape;
 mod state;
 #[cfg(test)]
 mod tests;
+mod triplets;
 
 pub use contact::Contact;
 pub use evaluated::Evaluated;

@@ -2,7 +2,7 @@
 
 use striae_mesh::Vec3;
 
-use super::{contact::Contact, numbers::Numbers};
+use super::{contact::Contact, numbers::Numbers, triplets::Triplets};
 use crate::{
     evaluation::Evaluation,
     side::Side,
@@ -15,9 +15,9 @@ use crate::{
 pub struct Evaluated {
     /// Residual of all rows: minus the contact forces, then the rows of the kept nodes.
     pub residual: Vec<f64>,
-    /// Rows of the entries of the tangent; several entries of one place add up.
+    /// Rows of the entries of the tangent, ascending; each place has one entry.
     pub rows: Vec<usize>,
-    /// Columns of the entries.
+    /// Columns of the entries, ascending in each row.
     pub columns: Vec<usize>,
     /// Values of the entries.
     pub values: Vec<f64>,
@@ -55,28 +55,37 @@ impl Evaluated {
         }
     }
 
-    /// Takes up what a pair contributes.
-    pub(super) fn add(&mut self, numbers: &Numbers, mut evaluation: Evaluation) {
-        let pair = self.pairs.len();
-        let stress = self.contact.members()[pair]
-            .pair
-            .stress_scale(&evaluation.nodes);
-        for term in std::mem::take(&mut evaluation.terms) {
-            self.add_term(&term, stress, |unknown| numbers.number(pair, unknown));
+    /// Takes up what the pairs contribute.
+    pub(super) fn with(mut self, numbers: &Numbers, mut pairs: Vec<Evaluation>) -> Self {
+        let terms: Vec<Vec<LocalTerm>> = pairs
+            .iter_mut()
+            .map(|evaluation| std::mem::take(&mut evaluation.terms))
+            .collect();
+        for (pair, terms) in terms.iter().enumerate() {
+            let of_pair = &self.contact.members()[pair].pair;
+            let stress = of_pair.stress_scale(&pairs[pair].nodes);
+            for term in terms {
+                self.add_residual(term, stress, |unknown| numbers.number(pair, unknown));
+            }
         }
-        self.pairs.push(evaluation);
+        let Triplets {
+            rows,
+            columns,
+            values,
+        } = Triplets::of(&terms, numbers);
+        Self {
+            rows,
+            columns,
+            values,
+            pairs,
+            ..self
+        }
     }
 
-    fn add_term(&mut self, term: &LocalTerm, stress: f64, number: impl Fn(u32) -> usize) {
-        let columns: Vec<usize> = term.columns.iter().map(|&c| number(c)).collect();
+    fn add_residual(&mut self, term: &LocalTerm, stress: f64, number: impl Fn(u32) -> usize) {
         let rows = term.rows.iter().zip(&term.fields).zip(&term.residual);
-        for (at, ((&row, field), residual)) in rows.enumerate() {
-            let row = number(row);
-            self.residual[row] += residual;
-            self.rows.extend(columns.iter().map(|_| row));
-            self.columns.extend(&columns);
-            let range = at * columns.len()..(at + 1) * columns.len();
-            self.values.extend(&term.tangent[range]);
+        for ((&row, field), residual) in rows {
+            self.residual[number(row)] += residual;
             let scale = match field {
                 Field::Momentum => continue,
                 Field::Gap(size) | Field::Stick(size) => *size,

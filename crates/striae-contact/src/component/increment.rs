@@ -142,7 +142,8 @@ impl Increment {
             (_, number) => Iteration::later(number),
         };
         let contact = self.contact.clone();
-        let mut evaluated = Evaluated::new(contact, &self.numbers, x.to_vec(), unknowns, number);
+        let evaluated = Evaluated::new(contact, &self.numbers, x.to_vec(), unknowns, number);
+        let mut pairs = Vec::with_capacity(self.contact.pair_count());
         for pair in 0..self.contact.pair_count() {
             let conditions = Conditions {
                 friction: &self.contact.members()[pair].friction,
@@ -161,10 +162,9 @@ impl Increment {
                 conditions,
                 Derivatives::First,
             );
-            let evaluation = evaluation.map_err(|collapse| self.collapsed(pair, collapse))?;
-            evaluated.add(&self.numbers, evaluation);
+            pairs.push(evaluation.map_err(|collapse| self.collapsed(pair, collapse))?);
         }
-        Ok(evaluated)
+        Ok(evaluated.with(&self.numbers, pairs))
     }
 
     /// Traction unknowns of all nodes, with the labels that the evaluation before gives them.

@@ -13,7 +13,7 @@ Of ``n`` nodes and ``k`` *kept* nodes there are ``3 n + 3 k`` unknowns: displace
 ``c`` of node ``i`` has the number ``3 i + c``, then come the pressure and two friction unknowns of
 each kept node. Kept nodes are chosen for an increment. Rows ``3 i + c`` of the residual are minus
 the contact force, to be added to internal minus external forces; the others state contact and
-friction. The tangent is given as triplets, of which several at one place add up. It is not
+friction. The tangent is given as triplets, one for each place, by row and then by column. It is not
 symmetric with friction and has zeros on its diagonal, so it takes a direct solver with pivoting.
 
 The formulas are in the book, in *Bring your own elements*.
@@ -322,8 +322,8 @@ class Evaluation:
 
     @property
     def values(self) -> Floats:
-        """Entries of the tangent, which add up where they have one place (units of their rows
-        over those of their columns)."""
+        """Entries of the tangent, one for each place (units of their rows over those of their
+        columns)."""
         return self._tangent[2]
 
     @property

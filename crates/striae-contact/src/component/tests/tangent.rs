@@ -45,6 +45,16 @@ fn dense(evaluated: &Evaluated) -> DMatrix<f64> {
     tangent
 }
 
+#[test]
+fn every_place_has_one_entry() {
+    let (contact, mut springs) = pads(Friction::coulomb(0.3).unwrap());
+    let start = contact.untouched();
+    let (_, pressed) = dragged(&contact, &mut springs, &start, Vec3::z() * -0.05);
+    let places: Vec<_> = pressed.rows.iter().zip(&pressed.columns).collect();
+    assert!(!places.is_empty() && places.len() == pressed.values.len());
+    assert!(places.is_sorted_by(|before, after| before < after));
+}
+
 /// Pads after a press and a drag by `way`, whose nodes all have a status.
 fn holds_after(way: Vec3, status: Status) {
     let (contact, mut springs) = pads(Friction::coulomb(0.3).unwrap());
