@@ -1,8 +1,8 @@
 //! Benchmarks: `striae-bench [GROUP ...] [--size UNKNOWNS ...] [--json FILE] [--compare | --growth [--backend SOLVER] | --agree] [--figure FOLDER]`.
 //!
-//! Groups are `law`, `element`, `surface`, `search`, `assembly`, `factor`, `iteration` and
-//! `cases`; all of them without arguments. `--compare` runs scenes with the condensed solver
-//! and with the multifrontal LU, each in a process of its own, and prints the
+//! Groups are `law`, `element`, `surface`, `search`, `assembly`, `component`, `factor`,
+//! `iteration` and `cases`; all of them without arguments. `--compare` runs scenes with the
+//! condensed solver and with the multifrontal LU, each in a process of its own, and prints the
 //! ratios of times and memory, and to a sparse Cholesky factorisation of the
 //! stiffness alone by the library faer with the same ordering. `--growth` fits time
 //! and memory against unknowns, of the condensed solver or another backend. `--agree`
