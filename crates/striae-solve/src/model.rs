@@ -444,6 +444,13 @@ impl InterferenceFit {
         let [_, most] = self.curve.range(first);
         (most.max(1.0) * self.value).max(0.0)
     }
+
+    /// The largest depth in which meshes may be in each other: the overlap on the way, or a
+    /// clearance, by which they are in each other before their faces touch.
+    pub fn deepest(&self, first: Moment) -> f64 {
+        let [_, most] = self.curve.range(first);
+        most.max(1.0) * self.value.abs()
+    }
 }
 
 /// Gaps that are closed.

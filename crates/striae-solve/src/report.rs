@@ -16,7 +16,7 @@ use striae_contact::{
     side::Side,
     unknowns::{NodeResult, Status},
 };
-use striae_mesh::{FacetId, NodeId, Vec3};
+use striae_mesh::{ElementId, FacetId, NodeId, Vec3};
 use striae_surface::node::SurfaceNode;
 
 use crate::{problem::Problem, rigid::Wrench, state::State};
@@ -130,20 +130,32 @@ pub struct BodyReport {
     pub velocity: Vec3,
 }
 
-/// Reports of all bodies; collective.
+/// Reports of all bodies; collective. The middle is that of the volume in bodies without mass, and
+/// the velocity that of the momentum: nodes whose mass is redistributed count with what they have.
 pub fn bodies(problem: &Problem, state: &State) -> Vec<BodyReport> {
     let bodies = problem.model.bodies.iter().enumerate();
     bodies
         .map(|(body, model)| {
             let (mut mass, mut centre, mut velocity) = (0.0, Vec3::zeros(), Vec3::zeros());
             let elements = model.mesh.elements().zip(problem.elements[body].iter());
-            for (corners, element) in elements {
-                for (corner, share) in corners.iter().zip(element.mass(1.0)) {
-                    let node = problem.node(body, *corner);
+            for (at, (corners, element)) in elements.enumerate() {
+                let at = ElementId::new(at);
+                let density = match model.has_mass() {
+                    true => model.density_of(problem.compositions[body].section(at)),
+                    false => 1.0,
+                };
+                let nodes = problem.nodes(body, corners);
+                for (&node, share) in nodes.iter().zip(element.mass(density)) {
                     let share: f64 = share.iter().sum();
                     mass += share;
                     centre += state.positions[node] * share;
-                    velocity += state.velocities[node] * share;
+                    if !model.has_mass() {
+                        velocity += state.velocities[node] * share;
+                    }
+                }
+                let moving = problem.masses[body].of_element(at);
+                for (&node, share) in nodes.iter().zip(moving.chunks_exact(nodes.len())) {
+                    velocity += state.velocities[node] * share.iter().sum::<f64>();
                 }
             }
             let mass = problem.share.sum(mass);

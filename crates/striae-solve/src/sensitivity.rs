@@ -100,7 +100,7 @@ pub struct Kink {
 /// A parameter that changes more than numbers.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "`{parameter}` changes {what} of the model; a derivative takes models that differ in numbers alone"
+    "`{parameter}` changes {what} of the model; a derivative takes models with the same parts, elements and increments"
 )]
 pub struct Unlike {
     /// Its name.
@@ -321,10 +321,14 @@ fn unlike(problem: &Problem, other: &Problem) -> Option<&'static str> {
         bodies().any(|(own, other)| !own.mesh.elements().eq(other.mesh.elements()));
     let has_other_formulation =
         || bodies().any(|(own, other)| formulations(own) != formulations(other));
+    let mut steps = problem.model.steps.iter().zip(&other.model.steps);
+    // Neighbours follow the run in its increments.
+    let mut has_other_increments = || steps.any(|(own, other)| own.increments != other.increments);
     match named.into_iter().next() {
         Some(kind) => Some(kind),
         None if has_other_cells => Some("the elements"),
         None if has_other_formulation() => Some("the formulation of elements"),
+        None if has_other_increments() => Some("the increments"),
         None => None,
     }
 }

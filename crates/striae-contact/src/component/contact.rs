@@ -100,20 +100,6 @@ impl Contact {
         &self.0.members
     }
 
-    /// Returns whether both have the same pairs on the same nodes.
-    pub(super) fn is_like(&self, other: &Self) -> bool {
-        let pairs = self.members().iter().zip(other.members());
-        Arc::ptr_eq(&self.0, &other.0)
-            || self.node_count() == other.node_count()
-                && self.pair_count() == other.pair_count()
-                && pairs.into_iter().all(|(a, b)| {
-                    Side::BOTH.iter().all(|&side| {
-                        of_side(&a.pair, side).eq(of_side(&b.pair, side))
-                            && a.pair.is_deformable(side) == b.pair.is_deformable(side)
-                    })
-                })
-    }
-
     /// Configuration of a pair.
     pub(super) fn configuration(
         &self,

@@ -1,5 +1,7 @@
 //! Residual, tangent and results of contact in an iteration.
 
+use std::sync::Arc;
+
 use striae_mesh::Vec3;
 
 use super::{contact::Contact, numbers::Numbers, triplets::Triplets};
@@ -27,6 +29,8 @@ pub struct Evaluated {
     /// Number of the evaluation in its increment, from 0.
     pub number: usize,
     pub(super) contact: Contact,
+    /// Identity of the increment.
+    pub(super) made_by: Arc<()>,
     pub(super) x: Vec<Vec3>,
     pub(super) tractions: Vec<Tractions>,
     /// Of every pair, without terms.
@@ -36,10 +40,10 @@ pub struct Evaluated {
 impl Evaluated {
     pub(super) fn new(
         contact: Contact,
+        (made_by, number): (&Arc<()>, usize),
         numbers: &Numbers,
         x: Vec<Vec3>,
         tractions: Vec<Tractions>,
-        number: usize,
     ) -> Self {
         Self {
             residual: vec![0.0; numbers.all()],
@@ -49,6 +53,7 @@ impl Evaluated {
             norm: 0.0,
             number,
             contact,
+            made_by: Arc::clone(made_by),
             x,
             tractions,
             pairs: Vec::new(),

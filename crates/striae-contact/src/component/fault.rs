@@ -132,7 +132,18 @@ pub enum FaultKind {
         /// Cause, in words.
         cause: String,
     },
-    /// A state or an evaluation of other surfaces.
+    /// An evaluation that another increment has made.
+    #[error("it belongs to another increment; use one that this increment has made")]
+    OtherIncrement,
+    /// A facet that is there already.
+    #[error("facet {facet} has the corners of facet {first}; give each facet once")]
+    Repeated {
+        /// The facet.
+        facet: usize,
+        /// The one before it.
+        first: usize,
+    },
+    /// A state of other surfaces.
     #[error("it belongs to other surfaces; use one that this contact has made")]
     Foreign,
 }

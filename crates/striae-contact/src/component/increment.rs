@@ -1,5 +1,7 @@
 //! An increment: the nodes that carry traction unknowns, and the evaluation of contact.
 
+use std::sync::Arc;
+
 use striae_mesh::{NodeId, Vec3};
 
 use super::{
@@ -38,6 +40,8 @@ pub struct Increment {
     tractions: Vec<Tractions>,
     /// Rules of the first evaluation.
     first: Iteration,
+    /// Shared with its copies and evaluations alone.
+    identity: Arc<()>,
 }
 
 impl Contact {
@@ -82,6 +86,7 @@ impl Increment {
             prescribed,
             selections,
             first: Iteration::First,
+            identity: Arc::default(),
         })
     }
 
@@ -142,7 +147,13 @@ impl Increment {
             (_, number) => Iteration::later(number),
         };
         let contact = self.contact.clone();
-        let evaluated = Evaluated::new(contact, &self.numbers, x.to_vec(), unknowns, number);
+        let evaluated = Evaluated::new(
+            contact,
+            (&self.identity, number),
+            &self.numbers,
+            x.to_vec(),
+            unknowns,
+        );
         let mut pairs = Vec::with_capacity(self.contact.pair_count());
         for pair in 0..self.contact.pair_count() {
             let conditions = Conditions {
@@ -217,7 +228,7 @@ impl Increment {
     /// others. The evaluation after it is one of a later iteration.
     ///
     /// # Errors
-    /// When the evaluation is one of other surfaces.
+    /// When the evaluation is one of another increment.
     pub fn reselected(&self, evaluated: &Evaluated) -> Result<Self, Faults> {
         self.own(evaluated, "evaluated")?;
         let (contact, x) = (&self.contact, &evaluated.x);
@@ -240,6 +251,7 @@ impl Increment {
             selections,
             tractions,
             first: Iteration::LATER,
+            identity: Arc::default(),
             ..self.clone()
         })
     }
@@ -270,11 +282,9 @@ impl Increment {
     }
 
     fn own(&self, evaluated: &Evaluated, place: &str) -> Result<(), Faults> {
-        let is_own =
-            evaluated.contact.is_like(&self.contact) && evaluated.residual.len() == self.unknowns();
-        match is_own {
+        match Arc::ptr_eq(&evaluated.made_by, &self.identity) {
             true => Ok(()),
-            false => Err(Faults::one(place, FaultKind::Foreign)),
+            false => Err(Faults::one(place, FaultKind::OtherIncrement)),
         }
     }
 

@@ -1,5 +1,7 @@
 //! Checks of shapes, before anything is computed from them.
 
+use std::collections::BTreeMap;
+
 use striae_mesh::{NodeId, Vec3};
 use striae_surface::{
     facet::Shape,
@@ -35,11 +37,12 @@ pub(super) fn count(found: usize, needed: usize, place: &str) -> Result<(), Faul
     }
 }
 
-/// Corners that are nodes, and that differ.
+/// Corners that are nodes, and that differ, of facets that differ.
 pub(super) fn corners(facets: &[[NodeId; 4]], nodes: usize) -> Result<(), FaultKind> {
     if facets.is_empty() {
         return Err(FaultKind::NoFacet);
     }
+    let mut known = BTreeMap::new();
     for (facet, corners) in facets.iter().enumerate() {
         if let Some(&node) = corners.iter().find(|node| node.index() >= nodes) {
             return Err(FaultKind::Node { facet, node, nodes });
@@ -49,6 +52,11 @@ pub(super) fn corners(facets: &[[NodeId; 4]], nodes: usize) -> Result<(), FaultK
         let repeats = a == b || b == c || a == c || !triangle && (d == a || d == b);
         if repeats {
             return Err(FaultKind::Degenerate { facet });
+        }
+        let mut corners = *corners;
+        corners.sort_unstable();
+        if let Some(first) = known.insert(corners, facet) {
+            return Err(FaultKind::Repeated { facet, first });
         }
     }
     Ok(())

@@ -144,8 +144,8 @@ class Run(Sequence[Increment]):
     ) -> Union[Floats, float]:
         """Derivative of a result by a parameter of a run made by :func:`differentiate`.
 
-        of: a column of the history, for its derivative over the increments, of shape
-            (increments,); or a function of an increment that returns a number, for the
+        of: a column of the history other than ``increment``, ``step`` and ``time``, for its
+            derivative over the increments, of shape (increments,); or a function of an increment that returns a number, for the
             derivative of that at the end of the run. Units: those of the result over those of
             the parameter.
         wrt: the parameter.
@@ -154,6 +154,11 @@ class Run(Sequence[Increment]):
             known = ", ".join(f"`{name}`" for name in self._parameters) or "none"
             raise KeyError(f"the run is not differentiated by `{wrt}`; parameters are: {known}")
         number = list(self._parameters).index(wrt)
+        if of in ("increment", "step", "time"):
+            raise KeyError(
+                f"`{of}` says which increment a row is of and is not differentiated; take a "
+                "function of an increment, such as `lambda end: end.time`"
+            )
         if isinstance(of, str):
             return History(*self._native.derivatives(number))[of]
         if not callable(of):

@@ -114,7 +114,8 @@ impl Offsets {
 }
 
 /// Depth in which faces of a pair are that interfere as they are meant to, after the depth `worn`
-/// has worn off them: with an interference that and the deepest overlap of their meshes besides,
+/// has worn off them: with an interference or a clearance that and the deepest overlap of their
+/// meshes besides,
 /// after overlaps of curved surfaces were pressed out that of their facets.
 pub fn meant_depth(problem: &Problem, pair: usize, worn: f64) -> f64 {
     let of_pair = &problem.model.pairs[pair];
@@ -132,7 +133,7 @@ pub fn meant_depth(problem: &Problem, pair: usize, worn: f64) -> f64 {
         return worn + seating.map_or(0.0, |seating| seating.correction());
     };
     let drawn = inside(&stage, 0.0).into_iter().map(|found| found.depth);
-    drawn.fold(0.0, f64::max) + interference.largest(problem.plans[0].start) + worn
+    drawn.fold(0.0, f64::max) + interference.deepest(problem.plans[0].start) + worn
 }
 
 /// The deepest overlap over the thickness of the body, if it is more than half of it, with that

@@ -16,7 +16,9 @@
 //! they differed by before it.
 //!
 //! The error that is left is measured by what another such correction would change, and taken away
-//! by it where it is not small.
+//! by it where it is not small. Where a neighbour is beyond a jump of the run, as where weights
+//! of traction fields depend on how it iterates, the residuals at `x` are no longer opposite but
+//! for what is left there: that is told as an error of its own.
 
 mod size;
 
@@ -52,6 +54,9 @@ use crate::{
 const PARTS: [f64; 2] = [1e-9, 0.1];
 /// Part of the first correction below which another one changes nothing.
 const NOTHING: f64 = 1e-7;
+/// Ratio of what the residuals of neighbours have in common, beside that of the increment, to what
+/// they differ by, from which on one of them is beyond a jump: it falls with `h` elsewhere.
+const JUMP: f64 = 0.01;
 /// Remainder where a neighbour keeps other nodes than the increment, so that nothing is known of it.
 const UNLIKE: f64 = 1.0;
 /// Most corrections of an increment.
@@ -212,6 +217,8 @@ pub(crate) struct Linearised<'a> {
     workspace: &'a mut Workspace,
     /// The workspace of the run, while the factors of its last iterations serve.
     run: Option<&'a Workspace>,
+    /// Residual that the run has left.
+    residual: Vec<f64>,
 }
 
 /// Evaluates the tangent at the end of an increment that `run` has come to.
@@ -252,11 +259,12 @@ pub(crate) fn linearise<'a>(
         selections: &increment.selections,
         imposed: &imposed,
     };
-    workspace.assemble(&setting, &trial, Iteration::Given, Derivatives::First)?;
+    let assembled = workspace.assemble(&setting, &trial, Iteration::Given, Derivatives::First)?;
     Ok(Linearised {
         problem: context.problem,
         workspace,
         run: Some(run),
+        residual: assembled.residual,
     })
 }
 
@@ -267,6 +275,21 @@ impl Linearised<'_> {
     fn correction(&mut self, residual: &[f64], part: f64) -> Result<Vec<f64>, CutBack> {
         let solved = self.solved(residual, part);
         solved.map_err(|error| unsolved(self.problem, self.workspace, error))
+    }
+
+    /// Ratio of the even part of two neighbours' residuals to the odd one, zero where that is
+    /// round-off of the state that the increment has come to.
+    fn asymmetry(&mut self, two: &[Assembled; 2], state: &State) -> f64 {
+        let (problem, layout) = (self.problem, &self.workspace.system().layout);
+        let combined = |factors: [f64; 3]| -> Vec<f64> {
+            let own = self.residual.iter();
+            let both = own.zip(&two[0].residual).zip(&two[1].residual);
+            both.map(|((own, less), more)| factors[0] * less + factors[1] * more + factors[2] * own)
+                .collect()
+        };
+        let [even, odd] = [[1.0, 1.0, -2.0], [-1.0, 1.0, 0.0]]
+            .map(|factors| Size::of(&combined(factors), problem, layout));
+        even.over(&odd.beyond(&Size::round_off_of_residuals(state)))
     }
 
     fn solved(&mut self, residual: &[f64], part: f64) -> Result<Vec<f64>, SolveError> {
@@ -304,6 +327,7 @@ pub(crate) fn moved(
 ) -> Result<Moved, CutBack> {
     let problem = base.context.problem;
     let mut assembled = both(&two, linearised.workspace)?;
+    let asymmetry = linearised.asymmetry(&assembled, &base.increment.state);
     let ends = &base.increment.state;
     let carried = two
         .each_ref()
@@ -339,6 +363,9 @@ pub(crate) fn moved(
     largest = first.map_or(largest, |first| largest.max(&first));
     let differences = largest.beyond(&round_off);
     let mut remainder = last.over(&differences);
+    if asymmetry > JUMP {
+        remainder = remainder.max(asymmetry.min(UNLIKE));
+    }
     if two.iter().any(|neighbour| !neighbour.is_like) {
         remainder = remainder.max(UNLIKE);
     }

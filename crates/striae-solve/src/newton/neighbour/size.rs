@@ -48,6 +48,17 @@ impl Size {
         Self(largest.map(|largest| ROUND_OFF * largest))
     }
 
+    /// Differences of residuals that are round-off of the state an increment has come to: of forces,
+    /// and of lengths and stresses.
+    pub(super) fn round_off_of_residuals(state: &State) -> Self {
+        let forces = state.forces.internal.iter().map(|force| force.amax());
+        let [positions, unknowns] = Self::round_off(state).0;
+        Self([
+            ROUND_OFF * forces.fold(0.0, f64::max),
+            positions.max(unknowns),
+        ])
+    }
+
     /// The larger components of both.
     pub(super) fn max(&self, other: &Self) -> Self {
         Self([0, 1].map(|at| self.0[at].max(other.0[at])))
