@@ -30,7 +30,7 @@ pub enum OutputError {
     #[error("{} is damaged: it has changed or shrunk since the run wrote it; restore it, or run the deck again", .0.display())]
     Damaged(PathBuf),
     /// The folder of a new run holds results.
-    #[error("{} holds the results of an earlier run; choose another folder, or replace them with `--overwrite`", .0.display())]
+    #[error("{} holds the results of an earlier run; choose another folder, or remove this one, as the program does with `--overwrite`", .0.display())]
     Occupied(PathBuf),
     /// Another run writes to the folder.
     #[error("{} is still being written by another run; wait for its end, or stop it", .0.display())]

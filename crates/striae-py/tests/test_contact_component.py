@@ -307,11 +307,15 @@ def test_values_of_other_contacts_are_refused() -> None:
     begun = contact.begin(contact.untouched())
     theirs = other.begin(other.untouched())
     found = theirs.evaluate(POINTS[[0, 1, 5, 4]], theirs.tractions)
-    for use in (begun.accept, begun.missed, begun.reselected):
-        with pytest.raises(st.ModelError, match=foreign):
-            use(found)
-    with pytest.raises(st.ModelError, match=f"after: {foreign}"):
-        begun.evaluate(POINTS, begun.tractions, after=found)
+    # As large as its own, and no less foreign.
+    like = pad().begin(pad().untouched())
+    of_another = "it belongs to another increment; use one that this increment has made"
+    for evaluation in (found, like.evaluate(POINTS, like.tractions)):
+        for use in (begun.accept, begun.missed, begun.reselected):
+            with pytest.raises(st.ModelError, match=of_another):
+                use(evaluation)
+        with pytest.raises(st.ModelError, match=f"after: {of_another}"):
+            begun.evaluate(POINTS, begun.tractions, after=evaluation)
     damaged = bytearray(pickle.dumps(contact.untouched()._native.stored()))
     with pytest.raises(st.ModelError, match="state: it is one of another version, or none"):
         st.contact._restored(bytes(damaged))

@@ -50,3 +50,17 @@ def test_textures_of_all_kinds_are_written(rubber: st.NeoHookean) -> None:
         model.step("press", pad["zmax"].displace(x=0, y=0, z=-0.01))
         text = model.to_deck()
         assert st.Model.from_text(text).to_deck() == text
+
+
+def test_the_order_of_loads_changes_no_bit(rubber: st.NeoHookean) -> None:
+    body = st.Body("pad", st.block((0.06, 0.04, 0.02), (3, 2, 2)), rubber)
+    model = st.Model([body])
+    pressed, pulled = body["zmax"].pressure(1e4), body["xmax"].traction((2e3, 1e3, 0))
+    model.step("load", body["xmin"].hold(), pressed, pulled, increments=3)
+    run, again = model.run(), st.Model.from_text(model.to_deck()).run()
+    assert np.array_equal(run[-1].body("pad").displacement, again[-1].body("pad").displacement)
+
+
+def test_names_are_of_one_line(rubber: st.NeoHookean) -> None:
+    with pytest.raises(ValueError, match="one line of printable characters"):
+        st.Body("a\nb", st.block(), rubber)

@@ -15,7 +15,7 @@ use striae_mesh::Vec3;
 use crate::{
     actuation::{Actuations, SectionActuation},
     axes::{Axes, are_parallel},
-    model::{Body, Curve, Freedom, Model, Moment, Step},
+    model::{Body, Curve, Freedom, LoadKind, Model, Moment, Step},
 };
 
 /// All that holds in one step.
@@ -220,6 +220,9 @@ fn loads(before: &StepPlan, step: &Step) -> Vec<PlannedLoad> {
             None => all.push(planned),
         }
     }
+    // Decks list tractions and pressures apart, so that their order says nothing. Sums to the last
+    // bit must not depend on it.
+    all.sort_by_key(|load| matches!(load.to, LoadKind::Pressure(_)));
     all
 }
 

@@ -53,9 +53,11 @@ pub(super) fn corners(facets: &[[NodeId; 4]], nodes: usize) -> Result<(), FaultK
         if repeats {
             return Err(FaultKind::Degenerate { facet });
         }
-        let mut corners = *corners;
-        corners.sort_unstable();
-        if let Some(first) = known.insert(corners, facet) {
+        // In the order around it, from its least corner on.
+        let mut around = corners[..if triangle { 3 } else { 4 }].to_vec();
+        let least = (0..around.len()).min_by_key(|&at| around[at]).unwrap_or(0);
+        around.rotate_left(least);
+        if let Some(first) = known.insert(around, facet) {
             return Err(FaultKind::Repeated { facet, first });
         }
     }

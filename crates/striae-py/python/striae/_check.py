@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import unicodedata
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, Literal, Optional, Protocol, TypeAlias, TypeVar, Union
 
@@ -274,11 +275,13 @@ def word(value: Any, known: Sequence[str], path: str) -> str:
 
 
 def name(value: Any, path: str) -> str:
-    """A name that is not empty."""
+    """A name of one line that is not empty."""
     if not isinstance(value, str):
         raise TypeError(f"{path}: a name is needed, not {value!r}")
     if not value:
         raise refuse(path, "a name must not be empty")
+    if any(unicodedata.category(letter) == "Cc" for letter in value):
+        raise refuse(path, f"a name must be one line of printable characters, not {value!r}")
     return value
 
 

@@ -35,6 +35,8 @@ Keep = Union[Literal["all", "steps", "last"], int]
 
 #: Number of increments between kept states if only the last one is kept.
 NEVER = 2**62
+#: Largest number of threads; more only take time to start.
+MOST_THREADS = 1024
 
 
 class History(Mapping[str, Floats]):
@@ -431,8 +433,8 @@ def watch(
     if on_increment is not None and not callable(on_increment):
         raise TypeError("on_increment: a function that takes an increment is needed")
     every = keeping(keep)
-    if threads is not None:
-        check.whole(threads, "threads")
+    if threads is not None and check.whole(threads, "threads") > MOST_THREADS:
+        raise refuse("threads", f"there may be {MOST_THREADS} at most, but {threads} are requested")
     told = on_increment
     if told is None:
         return None, every, threads

@@ -123,7 +123,7 @@ class Contact(Made):
         points: positions of all nodes at rest, of shape (n, 3) (length).
         pairs: the pairs, whose facets count the nodes in that order.
         """
-        listed = check.kinds(list(pairs), Pair, "pairs")
+        listed = check.kinds(pairs, Pair, "pairs")
         self._native = native.Contact(check.rows(points, "points"), [one._native for one in listed])
         self.pairs = tuple(listed)
         """The pairs."""
@@ -165,6 +165,10 @@ class Contact(Made):
         ]
         lasts = float("inf") if duration is None else check.positive(duration, "duration")
         held = [] if prescribed is None else check.booleans(prescribed, "prescribed")
+        if rigid is not None and not isinstance(rigid, Mapping):
+            raise TypeError(
+                f"rigid: a mapping of names to placements is needed, not {type(rigid).__name__}"
+            )
         placed = self._placed(dict(rigid or {}))
         origin = check.kind(state, State, "state")._native
         return Increment(self._native.begin(origin, held, ends, placed, lasts), self)

@@ -4,7 +4,7 @@ use crate::scene::{Places, Run, block, body, coulomb, increments, model, plane, 
 use striae_contact::evaluation::Evaluation;
 use striae_law::bulk::{LameConstants, Material};
 use striae_mesh::Vec3;
-use striae_solve::report::pairs;
+use striae_solve::report::{bodies, pairs};
 use striae_solve::{
     drive::{Continue, Observer, Point, Progress, run},
     newton::{InStep, Increment, IterationObserver},
@@ -294,6 +294,22 @@ fn contact_nodes_without_mass_calm_the_contact_force_and_change_no_momentum() {
             .fold(0.0, f64::max)
     });
     assert!(scatter[1] < 0.5 * scatter[0], "{scatter:?}");
+}
+
+#[test]
+fn a_body_has_the_velocity_of_its_momentum_where_nodes_have_no_mass() {
+    let mut model = against_a_wall(ContactMass::Redistributed);
+    // Nothing damps what nodes without mass do.
+    model.steps[0].procedure = Procedure::Dynamic {
+        spectral_radius: 1.0,
+    };
+    let run = Run::completed(model);
+    for state in &run.states[1..] {
+        let (linear, _) = momentum(&run.problem, state);
+        let velocity = bodies(&run.problem, state)[0].velocity;
+        // A mass of 0.01.
+        assert!((velocity - linear / 0.01).norm() < 1e-12, "{velocity}");
+    }
 }
 
 #[test]

@@ -7,7 +7,8 @@ use striae_mesh::{NodeId, Vec3};
 use striae_solve::{
     interference::{between, within},
     model::{
-        BodyId, Curve, Freedom, Model, Mover, Procedure, RigidId, RigidMotion, RigidShape, Velocity,
+        BodyId, Curve, Freedom, InterferenceFit, Model, Mover, Procedure, RigidId, RigidMotion,
+        RigidShape, Velocity,
     },
     outcome::{CutBack, Ending},
     report::pairs,
@@ -269,4 +270,33 @@ fn what_is_not_avoided_is_named() {
         panic!("{}", run.ending);
     };
     assert!(matches!(reason, CutBack::Passage { .. }), "{reason}");
+}
+
+#[test]
+fn bodies_are_in_each_other_by_a_clearance_before_they_touch() {
+    // A floor that is lower by the clearance, and one with the clearance.
+    let forces = [(-0.6, None), (0.0, Some(-0.6))].map(|(height, clearance)| {
+        let pad = block([0.0; 3], [1.0, 1.0, 1.0], [2, 2, 2]);
+        let mut model = model(vec![body("pad", pad.mesh().unwrap(), rubber(1.0, 0.3))]);
+        model.touch_rigid(
+            ("pad", "zmin"),
+            plane([0.0, 0.0, height], [0.0, 0.0, 1.0]),
+            Friction::frictionless(),
+        );
+        model.pairs[0].search_distance = Some(1.0);
+        model.pairs[0].interference = clearance.map(|value| InterferenceFit {
+            value,
+            curve: Curve::Constant,
+        });
+        let mut step = step();
+        step.increments = increments(0.5, 0.5);
+        step.displacements = vec![model.hold("pad", "zmax", [Some(0.0), Some(0.0), Some(-0.7)])];
+        model.steps = vec![step];
+        let run = Run::of(model);
+        assert_eq!(run.ending, Ending::Completed, "{}", run.ending);
+        assert!(run.interferences.iter().flatten().all(Vec::is_empty));
+        force(&run).z
+    });
+    assert!(forces[0] > 0.0);
+    assert!((forces[1] / forces[0] - 1.0).abs() < 1e-9, "{forces:?}");
 }

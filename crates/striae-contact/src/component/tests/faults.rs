@@ -45,8 +45,12 @@ fn faults_of_pairs_are_told_with_their_place() {
     assert_eq!(refused(&points, crossed), degenerate);
     let flat = vec![Vec3::zeros(); 4];
     assert_eq!(refused(&flat, pair(facets.clone())), degenerate);
-    let mut folded = facets.clone();
+    let mut twice = facets.clone();
     let [a, b, c, d] = facets[0];
+    twice.push([c, d, a, b]);
+    let repeated = "pairs[0].a.facets: facet 1 has the corners of facet 0; give each facet once";
+    assert_eq!(refused(&points, pair(twice)), repeated);
+    let mut folded = facets.clone();
     folded.push([a, d, c, b]);
     let told = "pairs[0].a.facets: the facets at node 0 face opposite ways; order the corners of each counter-clockwise seen from outside";
     assert_eq!(refused(&points, pair(folded)), told);
