@@ -277,21 +277,6 @@ impl Linearised<'_> {
         solved.map_err(|error| unsolved(self.problem, self.workspace, error))
     }
 
-    /// Ratio of the even part of two neighbours' residuals to the odd one, zero where that is
-    /// round-off of the state that the increment has come to.
-    fn asymmetry(&mut self, two: &[Assembled; 2], state: &State) -> f64 {
-        let (problem, layout) = (self.problem, &self.workspace.system().layout);
-        let combined = |factors: [f64; 3]| -> Vec<f64> {
-            let own = self.residual.iter();
-            let both = own.zip(&two[0].residual).zip(&two[1].residual);
-            both.map(|((own, less), more)| factors[0] * less + factors[1] * more + factors[2] * own)
-                .collect()
-        };
-        let [even, odd] = [[1.0, 1.0, -2.0], [-1.0, 1.0, 0.0]]
-            .map(|factors| Size::of(&combined(factors), problem, layout));
-        even.over(&odd.beyond(&Size::round_off_of_residuals(state)))
-    }
-
     fn solved(&mut self, residual: &[f64], part: f64) -> Result<Vec<f64>, SolveError> {
         if let Some(run) = self.run {
             let beside = self.workspace.correction_beside(run, residual, part)?;
@@ -327,8 +312,10 @@ pub(crate) fn moved(
 ) -> Result<Moved, CutBack> {
     let problem = base.context.problem;
     let mut assembled = both(&two, linearised.workspace)?;
-    let asymmetry = linearised.asymmetry(&assembled, &base.increment.state);
     let ends = &base.increment.state;
+    let residuals = [&assembled[0].residual, &assembled[1].residual];
+    let place = (problem, &linearised.workspace.system().layout);
+    let asymmetry = Size::asymmetry(&linearised.residual, residuals, place, ends);
     let carried = two
         .each_ref()
         .map(|of| Size::between(&of.trial.positions, &ends.positions));
