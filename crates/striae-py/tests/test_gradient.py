@@ -99,17 +99,3 @@ def test_the_division_into_increments_is_no_parameter() -> None:
 
     with pytest.raises(st.ModelError, match="`part` changes the increments of the model"):
         st.differentiate(divided, {"part": 0.3})
-
-
-def test_a_jump_of_the_run_beside_the_parameter_is_told() -> None:
-    def cap(radius: float) -> st.Model:
-        mesh = st.capped_block((0.02, 0.02), height=0.01, radius=radius, element_size=2e-3, growth=1.6)
-        body, floor = st.Body("cap", mesh, st.NeoHookean(1e6, 0.45)), st.Plane("floor", texture=(1, 0, 0))
-        model = st.Model([body], [floor], [st.Pair(body["cap"], floor, st.Nap(0.2, 0.5, 0.35), name="foot")])
-        model.step("press", body["zmax"].displace(x=0, y=0, z=-0.0009), increments=3)
-        model.step("drag", body["zmax"].displace(x=0.0005), increments=2)
-        return model
-
-    # The pressure jumps at a radius that is less by 7.5e-6 of it, within the step of the parameter.
-    with pytest.warns(st.RunWarning, match="derivatives by `radius` are uncertain"):
-        st.differentiate(cap, {"radius": 0.03})

@@ -16,9 +16,7 @@
 //! they differed by before it.
 //!
 //! The error that is left is measured by what another such correction would change, and taken away
-//! by it where it is not small. Where a neighbour is beyond a jump of the run, as where weights
-//! of traction fields depend on how it iterates, the residuals at `x` are no longer opposite but
-//! for what is left there: that is told as an error of its own.
+//! by it where it is not small.
 
 mod size;
 
@@ -54,9 +52,6 @@ use crate::{
 const PARTS: [f64; 2] = [1e-9, 0.1];
 /// Part of the first correction below which another one changes nothing.
 const NOTHING: f64 = 1e-7;
-/// Ratio of what the residuals of neighbours have in common, beside that of the increment, to what
-/// they differ by, from which on one of them is beyond a jump: it falls with `h` elsewhere.
-const JUMP: f64 = 0.01;
 /// Remainder where a neighbour keeps other nodes than the increment, so that nothing is known of it.
 const UNLIKE: f64 = 1.0;
 /// Most corrections of an increment.
@@ -217,8 +212,6 @@ pub(crate) struct Linearised<'a> {
     workspace: &'a mut Workspace,
     /// The workspace of the run, while the factors of its last iterations serve.
     run: Option<&'a Workspace>,
-    /// Residual that the run has left.
-    residual: Vec<f64>,
 }
 
 /// Evaluates the tangent at the end of an increment that `run` has come to.
@@ -259,12 +252,11 @@ pub(crate) fn linearise<'a>(
         selections: &increment.selections,
         imposed: &imposed,
     };
-    let assembled = workspace.assemble(&setting, &trial, Iteration::Given, Derivatives::First)?;
+    workspace.assemble(&setting, &trial, Iteration::Given, Derivatives::First)?;
     Ok(Linearised {
         problem: context.problem,
         workspace,
         run: Some(run),
-        residual: assembled.residual,
     })
 }
 
@@ -313,9 +305,6 @@ pub(crate) fn moved(
     let problem = base.context.problem;
     let mut assembled = both(&two, linearised.workspace)?;
     let ends = &base.increment.state;
-    let residuals = [&assembled[0].residual, &assembled[1].residual];
-    let place = (problem, &linearised.workspace.system().layout);
-    let asymmetry = Size::asymmetry(&linearised.residual, residuals, place, ends);
     let carried = two
         .each_ref()
         .map(|of| Size::between(&of.trial.positions, &ends.positions));
@@ -350,9 +339,6 @@ pub(crate) fn moved(
     largest = first.map_or(largest, |first| largest.max(&first));
     let differences = largest.beyond(&round_off);
     let mut remainder = last.over(&differences);
-    if asymmetry > JUMP {
-        remainder = remainder.max(asymmetry.min(UNLIKE));
-    }
     if two.iter().any(|neighbour| !neighbour.is_like) {
         remainder = remainder.max(UNLIKE);
     }

@@ -36,23 +36,6 @@ impl Size {
         Self(size)
     }
 
-    /// Ratio of what the residuals of two neighbours have in common, beside that of the increment,
-    /// to what they differ by; zero where that is round-off of the state `ends`.
-    pub(super) fn asymmetry(
-        own: &[f64],
-        [less, more]: [&Vec<f64>; 2],
-        (problem, layout): (&Problem, &Layout),
-        ends: &State,
-    ) -> f64 {
-        let both = || own.iter().zip(less).zip(more);
-        let even: Vec<f64> = both()
-            .map(|((own, less), more)| less + more - 2.0 * own)
-            .collect();
-        let odd: Vec<f64> = both().map(|((_, less), more)| more - less).collect();
-        let [even, odd] = [even, odd].map(|part| Self::of(&part, problem, layout));
-        even.over(&odd.beyond(&Self::round_off_of_residuals(ends)))
-    }
-
     /// Corrections that are round-off of the state an increment has come to.
     pub(super) fn round_off(state: &State) -> Self {
         let positions = state.positions.iter().map(|x| x.amax());
@@ -63,17 +46,6 @@ impl Size {
             unknowns.fold(0.0, |largest: f64, value| largest.max(value.abs())),
         ];
         Self(largest.map(|largest| ROUND_OFF * largest))
-    }
-
-    /// Differences of residuals that are round-off of the state an increment has come to: of forces,
-    /// and of lengths and stresses.
-    fn round_off_of_residuals(state: &State) -> Self {
-        let forces = state.forces.internal.iter().map(|force| force.amax());
-        let [positions, unknowns] = Self::round_off(state).0;
-        Self([
-            ROUND_OFF * forces.fold(0.0, f64::max),
-            positions.max(unknowns),
-        ])
     }
 
     /// The larger components of both.
