@@ -2,7 +2,7 @@
 # Compiles the crates of the workspace for `striae-fuzz`: integers that overflow panic, and the
 # crates that read input count the edges that an input passes and tell libFuzzer what they
 # compare. Crates that solve are not counted: what happens there says little about the input, and
-# takes long. Little optimisation: half the time to build, and inputs are small. `cargo xtask fuzz` names this script as RUSTC_WORKSPACE_WRAPPER, so that crates of
+# takes long. All are optimised, as the time that an input takes is judged. `cargo xtask fuzz` names this script as RUSTC_WORKSPACE_WRAPPER, so that crates of
 # others are compiled as always.
 case " $* " in
 *" --crate-name striae_mesh "* | *" --crate-name striae_model "* | *" --crate-name striae_files "* | \
@@ -14,4 +14,4 @@ case " $* " in
         -Cllvm-args=-sanitizer-coverage-trace-compares
     ;;
 esac
-exec "$@" -Coverflow-checks=yes -Copt-level=1
+exec "$@" -Coverflow-checks=yes -Copt-level=3
