@@ -19,7 +19,6 @@ use striae_solve::{
     problem::Problem,
     state::State,
 };
-use striae_sparse::{Structure, Supervariable};
 
 use crate::{
     clock::{timed, timed_by},
@@ -53,15 +52,7 @@ fn of_program(
 ) -> Result<Value, Box<dyn Error>> {
     let problem = context.problem;
     let layout = Layout::new(problem, Extent::default().with(selections));
-    let mut cliques = Vec::new();
-    for (body, model) in problem.model.bodies.iter().enumerate() {
-        let nodes = |corners| -> Vec<Supervariable> {
-            let nodes = problem.nodes(body, corners).into_iter();
-            nodes.map(|node| layout.supervariable(node)).collect()
-        };
-        cliques.extend(model.mesh.elements().map(nodes));
-    }
-    let structure = Structure::from_cliques(layout.offsets().to_vec(), &cliques)?;
+    let structure = scene::structure(problem, &layout)?;
     let mut partition = Partition::new(&structure, &layout.bulk())?;
     let places = ElementPlaces::new(problem, &layout, partition.structure());
     let mut tangent = Tangent::zero(partition.structure());

@@ -137,15 +137,7 @@ pub fn stiffness(model: &Model) -> Result<SparseMatrix, Box<dyn Error>> {
     let state = State::undeformed(&problem);
     let context = StepContext::new(&problem, 0, &state);
     let layout = Layout::new(&problem, Extent::default());
-    let mut cliques = Vec::new();
-    for (body, model) in problem.model.bodies.iter().enumerate() {
-        let nodes = |corners| -> Vec<Supervariable> {
-            let nodes = problem.nodes(body, corners).into_iter();
-            nodes.map(|node| layout.supervariable(node)).collect()
-        };
-        cliques.extend(model.mesh.elements().map(nodes));
-    }
-    let structure = Structure::from_cliques(layout.offsets().to_vec(), &cliques)?;
+    let structure = structure(&problem, &layout)?;
     let mut partition = Partition::from(&structure);
     let places = ElementPlaces::new(&problem, &layout, &structure);
     let mut tangent = Tangent::zero(partition.structure());
@@ -171,6 +163,22 @@ pub fn stiffness(model: &Model) -> Result<SparseMatrix, Box<dyn Error>> {
         Ok(_) => Ok(tangent.bodies),
         Err(reason) => Err(reason.to_string().into()),
     }
+}
+
+/// Couplings of the unknowns of a layout by elements.
+pub fn structure(problem: &Problem, layout: &Layout) -> Result<Structure, Box<dyn Error>> {
+    let mut cliques = Vec::new();
+    for (body, model) in problem.model.bodies.iter().enumerate() {
+        let nodes = |corners| -> Vec<Supervariable> {
+            let nodes = problem.nodes(body, corners).into_iter();
+            nodes.map(|node| layout.supervariable(node)).collect()
+        };
+        cliques.extend(model.mesh.elements().map(nodes));
+    }
+    Ok(Structure::from_cliques(
+        layout.offsets().to_vec(),
+        &cliques,
+    )?)
 }
 
 /// Evaluates all elements, without contact.

@@ -115,8 +115,7 @@ impl Offsets {
 
 /// Depth in which faces of a pair are that interfere as they are meant to, after the depth `worn`
 /// has worn off them: with an interference or a clearance that and the deepest overlap of their
-/// meshes besides,
-/// after overlaps of curved surfaces were pressed out that of their facets.
+/// meshes besides, after overlaps of curved surfaces were pressed out that of their facets.
 pub fn meant_depth(problem: &Problem, pair: usize, worn: f64) -> f64 {
     let of_pair = &problem.model.pairs[pair];
     let resolves = of_pair.initial == Initial::Resolve;
