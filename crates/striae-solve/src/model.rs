@@ -448,8 +448,8 @@ impl InterferenceFit {
     /// The largest depth in which meshes may be in each other: the overlap on the way, or a
     /// clearance, by which they are in each other before their faces touch.
     pub fn deepest(&self, first: Moment) -> f64 {
-        let [_, most] = self.curve.range(first);
-        most.max(1.0) * self.value.abs()
+        let ends = self.curve.range(first);
+        self.value.abs() * ends.iter().fold(1.0, |most, end| end.abs().max(most))
     }
 }
 
