@@ -272,31 +272,49 @@ fn what_is_not_avoided_is_named() {
     assert!(matches!(reason, CutBack::Passage { .. }), "{reason}");
 }
 
+/// A pad over a floor at a height, with a clearance, of which faces move down by a way.
+fn above(height: f64, clearance: Option<f64>, faces: &[&str], way: f64) -> Run {
+    let pad = block([0.0; 3], [1.0, 1.0, 1.0], [2, 2, 2]);
+    let mut model = model(vec![body("pad", pad.mesh().unwrap(), rubber(1.0, 0.3))]);
+    model.touch_rigid(
+        ("pad", "zmin"),
+        plane([0.0, 0.0, height], [0.0, 0.0, 1.0]),
+        Friction::frictionless(),
+    );
+    model.pairs[0].search_distance = Some(1.0);
+    model.pairs[0].interference = clearance.map(|clearance| InterferenceFit {
+        value: -clearance,
+        curve: Curve::Constant,
+    });
+    let mut step = step();
+    step.increments = increments(0.5, 0.5);
+    let down = [Some(0.0), Some(0.0), Some(-way)];
+    step.displacements = faces
+        .iter()
+        .map(|faces| model.hold("pad", faces, down))
+        .collect();
+    model.steps = vec![step];
+    Run::of(model)
+}
+
 #[test]
 fn bodies_are_in_each_other_by_a_clearance_before_they_touch() {
     // A floor that is lower by the clearance, and one with the clearance.
-    let forces = [(-0.6, None), (0.0, Some(-0.6))].map(|(height, clearance)| {
-        let pad = block([0.0; 3], [1.0, 1.0, 1.0], [2, 2, 2]);
-        let mut model = model(vec![body("pad", pad.mesh().unwrap(), rubber(1.0, 0.3))]);
-        model.touch_rigid(
-            ("pad", "zmin"),
-            plane([0.0, 0.0, height], [0.0, 0.0, 1.0]),
-            Friction::frictionless(),
-        );
-        model.pairs[0].search_distance = Some(1.0);
-        model.pairs[0].interference = clearance.map(|value| InterferenceFit {
-            value,
-            curve: Curve::Constant,
-        });
-        let mut step = step();
-        step.increments = increments(0.5, 0.5);
-        step.displacements = vec![model.hold("pad", "zmax", [Some(0.0), Some(0.0), Some(-0.7)])];
-        model.steps = vec![step];
-        let run = Run::of(model);
+    let forces = [(-0.6, None), (0.0, Some(0.6))].map(|(height, clearance)| {
+        let run = above(height, clearance, &["zmax"], 0.7);
         assert_eq!(run.ending, Ending::Completed, "{}", run.ending);
         assert!(run.interferences.iter().flatten().all(Vec::is_empty));
         force(&run).z
     });
     assert!(forces[0] > 0.0);
     assert!((forces[1] / forces[0] - 1.0).abs() < 1e-9, "{forces:?}");
+}
+
+#[test]
+fn what_is_deeper_than_a_clearance_is_told() {
+    let run = above(0.0, Some(0.6), &["zmin", "zmax"], 1.9);
+    let Ending::Stopped { reason, .. } = run.ending else {
+        panic!("{}", run.ending);
+    };
+    assert!(matches!(reason, CutBack::Passage { .. }), "{reason}");
 }

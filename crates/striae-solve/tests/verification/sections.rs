@@ -10,6 +10,7 @@ use striae_solve::{
     dynamics::kinetic_energy,
     model::{BodySection, Formulation, Model},
     problem::Problem,
+    report::bodies,
     state::State,
 };
 
@@ -193,8 +194,17 @@ fn every_section_has_its_mass() {
     model.bodies[0].density = 0.5;
     model.bodies[0].sections[0].density = 4.0;
     let problem = Problem::new(model).unwrap();
-    let count = State::undeformed(&problem).positions.len();
+    let mut state = State::undeformed(&problem);
+    let count = state.positions.len();
     let energy = kinetic_energy(&problem, &vec![Vec3::new(0.0, 2.0, 0.0); count]);
     let expected = 0.5 * (0.5 + 2.0 * 4.0) * 4.0;
     assert!((energy - expected).abs() < 1e-12, "{energy}");
+    // The light part has its middle at 0.5, the heavy one at 2, as the velocities have.
+    let speeds = state.positions.iter().map(|x| Vec3::y() * x.z);
+    state.velocities = speeds.collect();
+    let body = &bodies(&problem, &state)[0];
+    let middle = (0.5 * 0.5 + 8.0 * 2.0) / 8.5;
+    let centre = Vec3::new(0.5, 0.5, middle);
+    assert!((body.centre - centre).norm() < 1e-12, "{}", body.centre);
+    assert!((body.velocity - Vec3::y() * middle).norm() < 1e-12);
 }
