@@ -12,7 +12,7 @@
 //! meshes leave between nodes.
 //!
 //! `o_k` is that of the last converged state, one where there was no contact, and rests in an
-//! increment: of the present state it would have no derivative.
+//! increment, so that rows stay those of a bedding.
 
 /// `r_k l_k` of a support that is open.
 pub const C_OPEN: f64 = 5.0;

@@ -20,6 +20,7 @@
 
 mod chain;
 mod closed;
+mod closed_share;
 mod divided;
 mod facing;
 mod fan;

@@ -12,7 +12,7 @@ use pulp::{Simd, WithSimd};
 
 use super::{
     Polygon, Slopes,
-    fan::{Apex, Fan, fan},
+    fan::Fan,
     moved::{Integrand, M, Moved, OnTriangle},
     plane_facet::Vec2,
     rule,
@@ -67,22 +67,6 @@ impl<'a> Closed<'a> {
         })
     }
 
-    /// `int phi_k` over the points that are closed at the full bedding, in triangles about the
-    /// centre where there are others, so that it does not matter where the vertices begin.
-    fn closed(&self, mass: &[[f64; 8]; 8]) -> Vec<f64> {
-        let limit = self.pressing.least_full_limit();
-        let facets = &self.polygon.pair.facets;
-        let mut vertices = self.polygon.vertices.iter();
-        if vertices.all(|vertex| self.pressing.gap(&shares(facets, &vertex.place)) < limit) {
-            return self.pressing.weights(mass);
-        }
-        let mut closed = vec![0.0; self.pressing.count()];
-        let fan = fan(&self.polygon.vertices, Apex::Centre);
-        self.points(&fan)
-            .for_each(|(n, weight)| self.pressing.add_closed(&mut closed, &n, weight));
-        closed
-    }
-
     pub(super) fn pressed(&self, mass: &[[f64; 8]; 8], slopes: Option<&Slopes>) -> Pressed {
         let mut sums = Sums {
             closed: self,
@@ -119,7 +103,7 @@ impl<'a> Closed<'a> {
             rows: supports()
                 .map(|support| dot(&gaps, &support.shares))
                 .collect(),
-            closed: self.closed(mass),
+            closed: self.polygon.closed(self.pressing, mass),
             touches: vec![true; self.pressing.count()],
             area: sums.area,
             slopes,

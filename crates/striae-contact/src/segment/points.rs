@@ -19,6 +19,7 @@ use pulp::{Simd, WithSimd};
 use super::{
     Polygon, Slopes,
     closed::Closed,
+    closed_share,
     divided::divided,
     fan::{Apex, Fan, fan},
     moved::{AT_ONCE, Integrand, M, Moved, OnTriangle},
@@ -64,7 +65,7 @@ impl Polygon {
             .collect();
         let mut pressed = Pressed {
             rows: vec![0.0; pressing.count()],
-            closed: vec![0.0; pressing.count()],
+            closed: self.closed(pressing, mass),
             touches: vec![false; pressing.count()],
             slopes: slopes.map(|_| Box::new(PressedSlopes::default())),
             ..Pressed::default()
@@ -97,6 +98,18 @@ impl Polygon {
         }
         pressed
     }
+
+    /// `int phi_k` over the closed share of the supports.
+    pub(super) fn closed(&self, pressing: &Pressing, mass: &[[f64; 8]; 8]) -> Vec<f64> {
+        let facets = &self.pair.facets;
+        // About the centre, so that it does not matter where the vertices begin.
+        let fan = fan(&self.vertices, Apex::Centre);
+        let indices = fan.triangles.iter();
+        let triangles = indices.map(|indices| indices.map(|at| fan.places[at]));
+        let at = |place: &Vec2| (shares(facets, place), 1.0);
+        let (rule, _) = self.pair.rule_of_pressure();
+        closed_share::closed(pressing, pressing.weights(mass), triangles, rule, &at)
+    }
 }
 
 /// Sums over the points of a polygon.
@@ -106,7 +119,6 @@ struct Sums {
     /// `dF_c/dp_k`.
     by_pressure: [[f64; 8]; AT_ONCE],
     open: [f64; AT_ONCE],
-    closed: [f64; AT_ONCE],
     touches: [bool; AT_ONCE],
     area: f64,
 }
@@ -118,7 +130,6 @@ impl Sums {
             moved: Moved::zero(vertices),
             by_pressure: [[0.0; 8]; AT_ONCE],
             open: [0.0; AT_ONCE],
-            closed: [0.0; AT_ONCE],
             touches: [false; AT_ONCE],
             area: 0.0,
         }
@@ -130,7 +141,6 @@ impl Pressed {
         self.force.copy_from_slice(&sums.value[..8]);
         self.area = sums.area;
         self.rows[first..first + count].copy_from_slice(&sums.value[8..8 + count]);
-        self.closed[first..first + count].copy_from_slice(&sums.closed[..count]);
         self.touches[first..first + count].copy_from_slice(&sums.touches[..count]);
     }
 }
@@ -201,9 +211,6 @@ impl Integrate<'_> {
             integrand.by_gap[8 + k] = at.phi * at.closed;
             self.sums.open[k] += whole * at.phi * (1.0 - at.closed);
             self.sums.touches[k] |= at.closed > 0.0;
-            if gap < self.pressing.full_limit(self.first + k) {
-                self.sums.closed[k] += whole * at.phi;
-            }
             let of_closed = whole * at.phi * at.closed;
             add(&mut self.sums.by_pressure[k], of_closed, &n);
         }

@@ -10,7 +10,7 @@ use striae_mesh::Vec3;
 use striae_surface::{facet::Shape, scalar::combination};
 
 use super::{
-    Facet, Slopes,
+    Facet, Slopes, closed_share,
     divided::{DIVISIONS, divided},
     plane_facet::Vec2,
     rule,
@@ -64,7 +64,7 @@ pub(super) fn pressed_on_plane(
     let supports = pressing.count();
     let mut pressed = Pressed {
         rows: vec![0.0; supports],
-        closed: vec![0.0; supports],
+        closed: closed_on_plane(facet, n, pressing, mass),
         touches: vec![false; supports],
         slopes: slopes.map(|_| {
             Box::new(PressedSlopes {
@@ -80,6 +80,28 @@ pub(super) fn pressed_on_plane(
         pressed.add(facet, n, pressing, point);
     }
     pressed
+}
+
+/// `int phi_k` over the closed share of the supports.
+fn closed_on_plane(facet: &Facet, n: &Vec3, pressing: &Pressing, mass: &[[f64; 8]; 8]) -> Vec<f64> {
+    let shape = facet.shape;
+    let at = |place: &Vec2| {
+        let weights = shape.weights(place.x, place.y);
+        let [by_xi, by_eta] =
+            [&weights.d_xi, &weights.d_eta].map(|d| combination(d, &facet.corners));
+        let functions = shares(shape, [place.x, place.y]);
+        (functions, n.dot(&by_xi.cross(&by_eta)))
+    };
+    let triangles = match shape {
+        Shape::Triangle => vec![[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(Vec2::from)],
+        Shape::Quadrilateral => {
+            let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(Vec2::from);
+            let of_edge = |at: usize| [corners[at], corners[(at + 1) % 4], Vec2::zeros()];
+            [0, 1, 2, 3].map(of_edge).to_vec()
+        }
+    };
+    let whole = pressing.weights(mass);
+    closed_share::closed(pressing, whole, triangles.into_iter(), &rule::DEGREE_6, &at)
 }
 
 /// Interpolation functions at a place; a plane has none.
@@ -111,7 +133,6 @@ impl Pressed {
                 (0..3).for_each(|axis| row[3 * k + axis] += slope[axis]);
             }
         };
-        pressing.add_closed(&mut self.closed, &functions, area);
         for c in 0..4 {
             let value = functions[c] * at.pressure;
             self.force[c] += area * value;

@@ -41,7 +41,7 @@ pub struct Pressed {
     pub force: [f64; 8],
     /// `G_k`.
     pub rows: Vec<f64>,
-    /// `int phi_k` over the points that are closed at the full bedding.
+    /// `int phi_k` over the share that is closed at the full bedding.
     pub closed: Vec<f64>,
     /// `true` for supports with a closed point.
     pub touches: Vec<bool>,
@@ -133,29 +133,9 @@ impl Pressing {
         &self.heights
     }
 
-    /// Adds the weight of a point to the supports that are closed at it with the full bedding.
-    pub(super) fn add_closed(&self, sums: &mut [f64], n: &[f64; 8], weight: f64) {
-        let gap = self.gap(n);
-        let supports = self.supports.iter().zip(&self.full_limits);
-        for ((support, limit), sum) in supports.zip(sums) {
-            if gap < *limit {
-                *sum += weight * dot(&support.shares, n);
-            }
-        }
-    }
-
-    /// The gap below which a support counts as closed for the next increment.
-    #[inline(always)]
-    pub(super) fn full_limit(&self, k: usize) -> f64 {
-        self.full_limits[k]
-    }
-
-    /// The smallest gap at which a support is open with the full bedding.
-    pub(super) fn least_full_limit(&self) -> f64 {
-        self.full_limits
-            .iter()
-            .copied()
-            .fold(f64::INFINITY, f64::min)
+    /// Gaps below which supports count as closed for the next increment.
+    pub(super) fn full_limits(&self) -> &[f64] {
+        &self.full_limits
     }
 
     /// The smallest gap at which a support is open.

@@ -15,6 +15,8 @@ use striae::{
 const BLOCKS: &str = include_str!("blocks.toml");
 /// A dome on a floor with nap, whose contact grows.
 const DOME: &str = include_str!("dome.toml");
+/// A cap on facets of a fifteenth of its radius, whose supports are partly closed.
+const CAP: &str = include_str!("cap.toml");
 /// A billet that yields and is released.
 const BILLET: &str = include_str!("billet.toml");
 /// Blocks in dynamics, the upper one tied to a rigid plate that is free in one direction.
@@ -144,6 +146,13 @@ fn by_the_target_of_a_displacement() {
 #[test]
 fn by_the_height_of_a_body() {
     compare(DOME, "height", 1.0);
+}
+
+#[test]
+fn by_the_radius_of_a_cap_whose_contact_grows() {
+    // Open shares of supports, on which the next increment depends, change without jumps.
+    compare(CAP, "radius", 0.03);
+    compare(CAP, "radius", 0.0263);
 }
 
 #[test]
