@@ -123,6 +123,19 @@ impl<'a> Configuration<'a> {
         0.5 * thickness
     }
 
+    /// Overlap up to which facets touch, and from which on they face each other through what is
+    /// behind them, by their depths.
+    ///
+    /// Within one body layers are told apart by the thinner one. Outer faces of two bodies on top of
+    /// each other overlap by all of both, those that touch by next to nothing: half of it divides
+    /// them.
+    pub(crate) fn deepest(&self, [own, other]: [f64; 2]) -> f64 {
+        match self.pair.is_in_one_body() {
+            true => own.min(other),
+            false => own + other,
+        }
+    }
+
     /// Copy of the configuration, reached in the time `elapsed`.
     pub fn lasting(self, elapsed: f64) -> Self {
         Self { elapsed, ..self }

@@ -135,40 +135,37 @@ impl Configuration<'_> {
     }
 
     /// Returns whether a node may face a facet at this gap: where surfaces consist of faces, one
-    /// that looks towards it; in self-contact not one of its own, nor one behind the body.
+    /// that looks towards it and that no body lies between; in self-contact not one of its own.
     fn may_face(&self, side: Side, node: SurfaceNode, facet: FacetId, gap: f64) -> bool {
-        if !self.pair.is_by_faces() || self.pair.is_rigid() {
+        if !self.pair.is_by_faces() {
             return true;
         }
         let (own, other) = (self.side(side), self.facing(side));
+        let around = own.surface.corners(node).iter();
+        let depths = around.map(|corner| self.depth(side, corner.facet));
+        let opposite = self.depth(self.pair.opposing(side), facet);
+        let deepest = self.deepest([depths.fold(f64::INFINITY, f64::min), opposite]);
+        if -gap > deepest || self.pair.is_rigid() {
+            return -gap <= deepest;
+        }
         let corners = other.corners(facet);
         let normal = facet_normal(&Facet {
             corners: other.corner_positions(facet),
             shape: Shape::of(&corners),
         });
         let faces = |normal: Vec3| normal.dot(&own.normals[node]) <= FACING;
-        if !normal.is_some_and(faces) || !self.pair.is_in_one_body() {
-            return normal.is_some_and(faces);
-        }
-        let around = own.surface.corners(node).iter();
-        let depths = around.map(|corner| self.depth(side, corner.facet));
-        let opposing = self.pair.opposing(side);
-        // Behind its own body by more than half the thickness, a node faces the back of another
-        // layer.
-        !self.is_corner(side, node, facet)
-            && -gap <= depths.fold(self.depth(opposing, facet), f64::min)
+        normal.is_some_and(faces)
+            && !(self.pair.is_in_one_body() && self.is_corner(side, node, facet))
     }
 
     /// Returns whether the middle of the first facet may face the second one at this gap.
     pub(crate) fn facets_may_face(&self, side: Side, facets: [FacetId; 2], gap: f64) -> bool {
-        if !self.pair.is_in_one_body() {
-            return true;
-        }
-        let mut corners = self.side(side).corners(facets[0]).into_iter();
         let sides = [side, self.pair.opposing(side)];
-        let depths = [0, 1].map(|at| self.depth(sides[at], facets[at]));
-        !corners.any(|corner| self.is_corner(side, corner, facets[1]))
-            && -gap <= depths[0].min(depths[1])
+        let deepest = self.deepest([0, 1].map(|at| self.depth(sides[at], facets[at])));
+        let mut corners = self.side(side).corners(facets[0]).into_iter();
+        -gap <= deepest
+            && !(self.pair.is_in_one_body()
+                && corners.any(|corner| self.is_corner(side, corner, facets[1])))
     }
 
     /// Returns whether a node is one node of the mesh with a corner of a facet that faces its side.

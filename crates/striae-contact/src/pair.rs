@@ -45,8 +45,8 @@ pub struct PairedSurface {
     pub stiffness: f64,
     /// Texture, if the side has one.
     pub texture: Option<SideTexture>,
-    /// The body behind each facet, for contact within one body: what is further behind a facet
-    /// than half of its thickness belongs to another one. Empty where no bound is known.
+    /// Material behind each facet, where surfaces consist of faces: what overlaps with a facet by
+    /// more than half of it faces it through it. Empty where no bound is known.
     pub behind: Vec<Behind>,
     /// Skin that the side is part of, for sides that consist of faces.
     pub enclosure: Option<Enclosure>,

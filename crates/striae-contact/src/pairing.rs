@@ -20,7 +20,7 @@ use candidates::Candidates;
 use cover::Cover;
 pub use cover::Folded;
 use past_edges::face_past_edges;
-use self_contact::Neighbourhood;
+use self_contact::{Neighbourhood, is_outside};
 
 use crate::{
     configuration::Configuration,
@@ -360,7 +360,7 @@ fn of_facet(
             start.is_some_and(|start| face_past_edges(configuration, &paired, start))
         };
         if is_near(&paired)
-            && (!one_body || self_contact::is_outside(configuration, &paired))
+            && (!configuration.pair.is_by_faces() || is_outside(configuration, &paired))
             && !is_past_edges()
         {
             found.push(paired);

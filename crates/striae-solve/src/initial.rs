@@ -26,9 +26,8 @@ use striae_mesh::{NodeId, Vec3};
 use striae_surface::{node::SurfaceNode, topology::Surface};
 
 use crate::{
-    interference::thickness_with,
     model::{ContactSurface, Initial, Model, PairId, RigidShape},
-    problem::{PairGeometry, add_fibres, pair_geometry},
+    problem::{PairGeometry, add_fibres, pair_geometry, thickness_with},
 };
 
 pub use close::close;

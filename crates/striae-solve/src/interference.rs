@@ -2,7 +2,7 @@
 
 use striae_contact::{
     configuration::Configuration,
-    interference::{Interference, Kind, Stage, Thickness, interferences, lengths, resolved_inside},
+    interference::{Interference, Kind, Stage, Thickness, interferences, resolved_inside},
     pair::ContactPair,
     placement::Placement,
     side::Side,
@@ -10,7 +10,7 @@ use striae_contact::{
 use striae_mesh::{NodeId, Vec3};
 
 use crate::{
-    problem::{PairGeometry, Problem},
+    problem::{Problem, thickness_with},
     rigid::Pose,
     state::State,
 };
@@ -115,30 +115,4 @@ pub(crate) fn placed<'a>(
 pub fn thickness(problem: &Problem, pair: usize, positions: &[Vec3]) -> Thickness {
     let at = |body: usize, node: NodeId| positions[problem.node(body, node)];
     thickness_with(&problem.pairs[pair], at)
-}
-
-/// Thickness with the nodes of bodies at given places.
-pub(crate) fn thickness_with(
-    geometry: &PairGeometry,
-    at: impl Fn(usize, NodeId) -> Vec3,
-) -> Thickness {
-    Thickness(Side::BOTH.map(|side| {
-        let Some(surface) = geometry.contact.sides[side].surface() else {
-            return Vec::new();
-        };
-        let rigid = &geometry.rigid_reference;
-        let x: Vec<Vec3> = match geometry.bodies[side] {
-            Some(body) => surface.nodes().iter().map(|&node| at(body, node)).collect(),
-            None => rigid.clone(),
-        };
-        let end = |node: NodeId| match geometry.bodies[side] {
-            Some(body) => at(body, node),
-            None => {
-                rigid[surface
-                    .node(node)
-                    .expect("the skin of a rigid side is the side")]
-            }
-        };
-        lengths(surface, &x, &geometry.fibres[side], end)
-    }))
 }

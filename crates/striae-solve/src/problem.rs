@@ -13,7 +13,7 @@ mod painted;
 mod shadow;
 
 pub use contact_facet::ContactFacet;
-pub(crate) use fibres::add_fibres;
+pub(crate) use fibres::{add_fibres, thickness_with};
 pub(crate) use frame::Frame;
 pub(crate) use nodes::extent;
 pub use painted::Undirected;

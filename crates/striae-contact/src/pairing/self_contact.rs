@@ -5,7 +5,7 @@
 //! and `i`, `j`, `k` facets, a pair is left out
 //!
 //! ```text
-//! back to back   -g_ij > min(t_i, t_j)/2
+//! back to back   -g_ij > min(t_i, t_j)/2; between two bodies -g_ij > (t_i + t_j)/2
 //! hidden         {i, k} or {j, k} covers the middle of {i, j}, and is nearer by more than t_k/2
 //! around a node  i and j share one, and n_i . n_j > -.71 or it is an edge of the body
 //! ```
@@ -67,20 +67,18 @@ impl Neighbourhood {
     }
 }
 
-/// Returns whether the body does not lie between two facets.
+/// Returns whether no body lies between two facets.
 pub(super) fn is_outside(configuration: &Configuration, paired: &PairedFacets) -> bool {
-    let facets: Vec<(Side, FacetId)> = places_of(paired).collect();
-    let depths = facets
-        .iter()
-        .map(|&(side, facet)| configuration.depth(side, facet));
-    let is_beyond_edge = match facets[..] {
-        [(side, facet), other] => {
-            let behind = configuration.pair.sides[side].behind.get(facet.index());
-            behind.is_some_and(|behind| behind.beyond_edges.contains(&other))
-        }
-        _ => false,
+    let [Some(facet), Some(other)] = paired.facets else {
+        return true;
     };
-    !is_beyond_edge && -paired.mean_gap(configuration) <= depths.fold(f64::INFINITY, f64::min)
+    let sides = paired.sides;
+    let behind = configuration.pair.sides[sides[0]].behind.get(facet.index());
+    let is_beyond_edge =
+        behind.is_some_and(|behind| behind.beyond_edges.contains(&(sides[1], other)));
+    let depths = [(sides[0], facet), (sides[1], other)];
+    let depths = depths.map(|(side, facet)| configuration.depth(side, facet));
+    !is_beyond_edge && -paired.mean_gap(configuration) <= configuration.deepest(depths)
 }
 
 /// Leaves out facets that face each other through another layer.

@@ -2,7 +2,7 @@
 
 use striae_contact::{
     body_edge::beyond_edges,
-    interference::{Fibre, fibres, lengths},
+    interference::{Fibre, Thickness, fibres, lengths},
     pair::{Behind, End, Geometry},
     side::Side,
 };
@@ -39,10 +39,8 @@ pub(crate) fn add_fibres(model: &Model, pairs: &mut [PairGeometry]) {
             let skin = skins[body].get_or_insert_with(|| skin(body));
             of_body(&model.bodies[body].mesh.positions, surface, skin)
         });
-        if pair.contact.is_in_one_body()
-            && let Some(body) = pair.bodies[Side::A]
-        {
-            let behind = behind(&model.bodies[body].mesh.positions, pair, body);
+        if !has_plane && (pair.contact.has_faces || pair.contact.is_self_contact()) {
+            let behind = behind(model, pair);
             for (side, behind) in Side::BOTH.into_iter().zip(behind) {
                 pair.contact.sides[side].behind = behind;
             }
@@ -50,28 +48,59 @@ pub(crate) fn add_fibres(model: &Model, pairs: &mut [PairGeometry]) {
     }
 }
 
-/// The body behind the facets of the sides of a pair within it.
-fn behind(positions: &[Vec3], pair: &PairGeometry, body: usize) -> [Vec<Behind>; 2] {
-    let at = |node: NodeId| positions[node.index()];
+/// Material behind the facets of the sides of a pair.
+fn behind(model: &Model, pair: &PairGeometry) -> [Vec<Behind>; 2] {
+    let at = |body: usize, node: NodeId| model.bodies[body].mesh.positions[node.index()];
     let surfaces = Side::BOTH.map(|side| pair.contact.sides[side].surface());
-    let mut beyond_edges = beyond_edges(surfaces, at);
+    let count = |surface: Option<&Surface>| surface.map_or(0, |surface| surface.facets().len());
+    let mut beyond_edges = match pair.bodies[Side::A] {
+        Some(body) if pair.contact.is_in_one_body() => {
+            beyond_edges(surfaces, |node| at(body, node))
+        }
+        _ => surfaces.map(|surface| vec![Vec::new(); count(surface)]),
+    };
+    let Thickness(thickness) = thickness_with(pair, at);
+    let mut thickness = thickness.into_iter();
     Side::BOTH.map(|side| {
-        let Some(surface) = surfaces[side] else {
-            return Vec::new();
-        };
-        let x: Vec<Vec3> = surface.nodes().iter().map(|node| at(*node)).collect();
-        let thickness = lengths(surface, &x, &pair.fibres[side], at);
-        let through = thickness.into_iter().zip(&pair.fibres[side]);
+        let through = thickness.next().unwrap_or_default().into_iter();
         let beyond_edges = std::mem::take(&mut beyond_edges[side]);
-        let behind = through
+        let end = |fibre: &Option<Fibre>| end(pair, pair.bodies[side]?, fibre.as_ref()?);
+        through
+            .zip(&pair.fibres[side])
             .zip(beyond_edges)
             .map(|((thickness, fibre), beyond_edges)| Behind {
                 thickness,
-                end: fibre.as_ref().and_then(|fibre| end(pair, body, fibre)),
+                end: end(fibre),
                 beyond_edges,
-            });
-        behind.collect()
+            })
+            .collect()
     })
+}
+
+/// Thickness with the nodes of bodies at given places.
+pub(crate) fn thickness_with(
+    geometry: &PairGeometry,
+    at: impl Fn(usize, NodeId) -> Vec3,
+) -> Thickness {
+    Thickness(Side::BOTH.map(|side| {
+        let Some(surface) = geometry.contact.sides[side].surface() else {
+            return Vec::new();
+        };
+        let rigid = &geometry.rigid_reference;
+        let x: Vec<Vec3> = match geometry.bodies[side] {
+            Some(body) => surface.nodes().iter().map(|&node| at(body, node)).collect(),
+            None => rigid.clone(),
+        };
+        let end = |node: NodeId| match geometry.bodies[side] {
+            Some(body) => at(body, node),
+            None => {
+                rigid[surface
+                    .node(node)
+                    .expect("the skin of a rigid side is the side")]
+            }
+        };
+        lengths(surface, &x, &geometry.fibres[side], end)
+    }))
 }
 
 /// The end of a fibre on a side of a pair that is of its body.

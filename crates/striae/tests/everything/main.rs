@@ -1,5 +1,7 @@
 //! Contact of everything: the same from Rust and from a deck, and what advice says of it.
 
+mod beside_pairs;
+
 use std::path::Path;
 
 use striae::{
@@ -271,80 +273,6 @@ fn slivers_along_a_common_edge_are_no_contact_that_was_missed() {
     assert_eq!(run.ending, Ending::Completed);
     let edge = run.results().pair("floor-wall").unwrap();
     assert_eq!(edge.sides[0].force.norm(), 0.0);
-}
-
-/// A soft block that is pushed off a stiff one and sinks behind its edge.
-const OFF: &str = r#"
-title = "A block that is pushed off another one"
-[[material]]
-name = "soft"
-law = "neo-hookean"
-youngs_modulus = 1
-poissons_ratio = 0.45
-[[material]]
-name = "stiff"
-law = "neo-hookean"
-youngs_modulus = 100
-poissons_ratio = 0.3
-[[body]]
-name = "lower"
-material = "stiff"
-mesh = { generator = "block", size = [1, 1, 0.6], divisions = [3, 3, 2] }
-[[body]]
-name = "upper"
-material = "soft"
-mesh = { generator = "block", origin = [0.25, 0.15, 0.6], size = [0.7, 0.7, 0.4], divisions = [2, 4, 2] }
-CONTACT
-[[step]]
-name = "press"
-increments = 4
-displacement = [
-    { body = "lower", nodes = "zmin", x = 0, y = 0, z = 0 },
-    { body = "upper", nodes = "zmax", x = 0, y = 0, z = -0.04 },
-]
-[[step]]
-name = "off"
-increments = 12
-displacement = [{ body = "upper", nodes = "zmax", x = 0.85 }]
-"#;
-
-#[test]
-fn a_block_is_pushed_off_another_one_as_with_a_named_pair() {
-    let named = r#"
-[[pair]]
-name = "soles"
-a = { body = "lower", facets = "zmax" }
-b = { body = "upper", facets = "zmin" }
-friction = { law = "coulomb", mu = 0.3 }
-"#;
-    let all = r#"
-[contact]
-all = true
-friction = { law = "coulomb", mu = 0.3 }
-"#;
-    let all = format!("{all}{OF_FACES}");
-    let [named, found] = [named, &all].map(|contact| {
-        let text = OFF.replace("CONTACT", contact);
-        let deck = deck::parse(&text, "deck", Path::new("")).unwrap_or_else(|f| panic!("{f}"));
-        Simulation::of(deck).unwrap().run().unwrap()
-    });
-    assert_eq!(found.ending, Ending::Completed);
-    assert_eq!(found.increments, named.increments);
-    let forces = |run: &Finished, pair: &str| -> Vec<[f64; 3]> {
-        let columns = ["x", "y", "z"].map(|axis| {
-            let name = format!("pair.{pair}.resultant_a.{axis}");
-            let mut columns = run.history.columns.iter();
-            columns.position(|column| *column == name).unwrap()
-        });
-        let rows = run.history.rows.iter();
-        rows.map(|row| columns.map(|column| row[column])).collect()
-    };
-    let named = forces(&named, "soles");
-    let found = forces(&found, "lower.zmax-upper.zmin");
-    assert!(named[3][2] < -0.01 && named[15] == [0.0; 3], "{named:?}");
-    for (named, found) in named.iter().flatten().zip(found.iter().flatten()) {
-        assert!((named - found).abs() < 1e-10, "{named} {found}");
-    }
 }
 
 #[test]
