@@ -23,6 +23,9 @@ use nalgebra::{DMatrix, DVector};
 
 /// Least eigenvalue of the scaled `A^T A` of measurements that determine `q`.
 const DETERMINED: f64 = 1e-9;
+/// Length of a column over the longest one below which it is round-off: sines of 180 degrees, and
+/// their squares, are not zero.
+const SHORT: f64 = 1e-10;
 /// Shortfall of a bound over `m` that is round-off.
 const MET: f64 = 1e-9;
 /// Part of a bound that is not one of the active ones, below which it depends on them.
@@ -49,7 +52,8 @@ pub(super) fn least_squares(
     m: f64,
 ) -> Option<Minimum> {
     let lengths: Vec<f64> = A.column_iter().map(|column| column.norm()).collect();
-    if lengths.contains(&0.0) || A.nrows() < A.ncols() {
+    let longest = lengths.iter().copied().fold(0.0, f64::max);
+    if lengths.iter().any(|length| *length <= SHORT * longest) || A.nrows() < A.ncols() {
         return None;
     }
     let scale = DMatrix::from_diagonal(&DVector::from_iterator(

@@ -293,6 +293,25 @@ fn what_measurements_leave_open_is_said() {
         fit(&sought("coulomb"), &[], 0.95),
         Err(FitError::Undetermined { .. })
     ));
+    // The sine of 180 degrees is round-off, not zero.
+    let along = [(0.0, 0.3), (0.0, 0.2), (180.0, 0.25)];
+    let across = [(90.0, 0.3), (270.0, 0.31), (-90.0, 0.29)];
+    let not_backward = [(90.0, 0.3), (270.0, 0.31), (180.0, 0.2), (180.0, 0.22)];
+    for (name, readings) in [
+        ("orthotropic", &along[..]),
+        ("orthotropic", &across),
+        ("nap", &not_backward),
+    ] {
+        let readings = readings.iter();
+        let readings: Vec<_> = readings
+            .map(|&(angle, mu)| Reading::against(angle, mu))
+            .collect();
+        let refused = fit(&sought(name), &readings, 0.95).unwrap_err();
+        assert!(
+            matches!(refused, FitError::Undetermined { .. }),
+            "{refused}"
+        );
+    }
     // All textures at one angle leave mu and c_mag open.
     let around = |i: u32| Reading::against(f64::from(i), 0.3 + 0.01 * f64::from(i % 3));
     let readings: Vec<Reading> = (0..12).map(around).collect();
