@@ -20,6 +20,7 @@
 //! | `gain` | work that friction does at a node that slips over all that it does on its side in an increment, see [`crate::audit`] | 0.01 |
 //! | `contact` | energy that contact has made, beyond friction, over the largest external work or work of actuation | 0.1 |
 //! | `imbalance` | energy found nowhere over the largest energy | 1e-3 |
+//! | `integration` | energy that the time integration has made over the largest energy | 0.1 |
 //! | `residual` | residual of an increment that was accepted above the tolerance, where the integrals of contact jump | - |
 //! | `stabilisation` | work lost to [stabilisation](crate::stabilisation) in a step over its external work, work of actuation or change of strain energy, whichever is largest | 0.01 |
 //! | `rotation` | largest angle, in radians, by which elements of linear elastic bodies turn | 0.1 |
@@ -104,6 +105,8 @@ pub enum Kind {
     Contact,
     /// Energy is found nowhere.
     Imbalance,
+    /// The time integration makes energy.
+    Integration,
     /// An increment was accepted above the tolerance.
     Residual,
     /// Much of the work of a step is lost to stabilisation.
@@ -122,7 +125,7 @@ pub enum Kind {
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Self; 19] = [
+    pub const ALL: [Self; 20] = [
         Self::Mismatch,
         Self::Moment,
         Self::Tension,
@@ -135,6 +138,7 @@ impl Kind {
         Self::Gain,
         Self::Contact,
         Self::Imbalance,
+        Self::Integration,
         Self::Residual,
         Self::Stabilisation,
         Self::Rotation,
@@ -159,6 +163,7 @@ impl Kind {
             Self::Gain => "gain",
             Self::Contact => "contact",
             Self::Imbalance => "imbalance",
+            Self::Integration => "integration",
             Self::Residual => "residual",
             Self::Stabilisation => "stabilisation",
             Self::Rotation => "rotation",
@@ -178,7 +183,7 @@ impl Kind {
             Self::Unfelt => UNFELT,
             Self::Gain => LEAST_SHARE,
             Self::Coarse => 1.0,
-            Self::Rotation | Self::Contact => 0.1,
+            Self::Rotation | Self::Contact | Self::Integration => 0.1,
             Self::Imbalance => 1e-3,
             Self::Residual | Self::Passage | Self::NeverTouched | Self::NeverMeets => 0.0,
         }
@@ -272,6 +277,7 @@ impl Judgement {
         self.note(Kind::Contact, None, after.gained, after.time);
         let imbalance = energies.imbalance().abs();
         self.note(Kind::Imbalance, None, imbalance, after.time);
+        self.note(Kind::Integration, None, -energies.numerical, after.time);
         if in_step.reach == Reach::End {
             self.stabilisation(after);
         }
@@ -494,7 +500,7 @@ impl Judgement {
     fn relative(&self, worst: &Worst) -> Worst {
         let value = match worst.kind {
             Kind::Contact => over(worst.value, self.external),
-            Kind::Creation | Kind::Imbalance => over(worst.value, self.energy),
+            Kind::Creation | Kind::Imbalance | Kind::Integration => over(worst.value, self.energy),
             _ => worst.value,
         };
         Worst { value, ..*worst }
@@ -668,6 +674,9 @@ fn warning(problem: &Problem, worst: &Worst) -> Warning {
                 "the energy balance is violated by {value:.1e} of the largest energy at time {time:.4}"
             )
         }
+        Kind::Integration => format!(
+            "the time integration has created energy up to time {time:.4}, of {percent:.0} % of the largest energy: take a smaller `spectral_radius`, or smaller increments"
+        ),
         Kind::Residual => format!(
             "the increment to time {time:.4} was accepted with a residual of {value:.1e}, above the tolerance of {:.1e}: corners of facets lie so close to opposing edges that the integrals of contact jump by as much",
             problem.model.solver.tolerance
