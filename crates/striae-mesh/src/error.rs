@@ -26,6 +26,14 @@ pub enum MeshError {
         /// The node it names twice.
         node: NodeId,
     },
+    /// Two elements have the same corners.
+    #[error("{element} has the same corners as {other}; remove one of them")]
+    RepeatedElement {
+        /// The later one.
+        element: ElementId,
+        /// The earlier one.
+        other: ElementId,
+    },
     /// Nodes that no element uses.
     #[error("{} nodes belong to no element, the first is {}", nodes.len(), nodes[0])]
     OrphanNodes {

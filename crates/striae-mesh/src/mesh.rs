@@ -38,7 +38,7 @@ impl Mesh {
     }
 
     /// Checks that the mesh is consistent: what is referred to exists, corners
-    /// of an element differ, every node is used, positions are finite, no
+    /// of an element differ, as do elements, every node is used, positions are finite, no
     /// face has three elements, facet sets lie on the boundary.
     ///
     /// The shape of the elements is not judged here but by [`Mesh::quality`]
@@ -123,7 +123,41 @@ impl Mesh {
                 }
             }
         }
-        Ok(())
+        match self.first_repeated() {
+            Some([element, other]) => Err(MeshError::RepeatedElement { element, other }),
+            None => Ok(()),
+        }
+    }
+
+    /// The first element with the corners of an earlier one, and that one. Their faces would be no
+    /// boundary, as each of them belongs to both.
+    fn first_repeated(&self) -> Option<[ElementId; 2]> {
+        // Numbers that the same corners have in any order tell nearly all elements apart.
+        let key = |corners: &[NodeId]| {
+            let least = corners.iter().map(|node| node.index()).min();
+            (
+                least,
+                corners.iter().map(|node| node.index()).sum::<usize>(),
+            )
+        };
+        let mut keys: Vec<_> = self.elements().map(key).zip(0..).collect();
+        keys.sort_unstable();
+        let sorted = |at: usize| {
+            let mut corners = self.corners(ElementId::new(at)).to_vec();
+            corners.sort_unstable();
+            corners
+        };
+        let groups = keys
+            .chunk_by(|a, b| a.0 == b.0)
+            .filter(|group| group.len() > 1);
+        let repeated = groups.filter_map(|group| {
+            let of_group = group.iter().map(|&(_, at)| (sorted(at), at));
+            let mut of_group: Vec<(Vec<NodeId>, usize)> = of_group.collect();
+            of_group.sort_unstable();
+            let same = of_group.windows(2).filter(|pair| pair[0].0 == pair[1].0);
+            same.map(|pair| [pair[1].1, pair[0].1]).min()
+        });
+        repeated.min().map(|pair| pair.map(ElementId::new))
     }
 
     fn check_nodes(&self) -> Result<(), MeshError> {
@@ -264,6 +298,19 @@ mod tests {
                 ..
             })
         ));
+    }
+
+    #[test]
+    fn elements_differ() {
+        let mut mesh = two_elements();
+        let mut again = mesh.blocks[0].nodes[8..].to_vec();
+        again.rotate_left(3);
+        mesh.blocks[0].nodes.extend(again);
+        let fault = mesh.check().unwrap_err();
+        assert_eq!(
+            fault.to_string(),
+            "element 2 has the same corners as element 1; remove one of them"
+        );
     }
 
     #[test]
