@@ -207,6 +207,12 @@ displacement = [
         told.contains("line 4: `much` is no finite number for column `2`"),
         "{told}"
     );
+    std::fs::write(folder.path().join("way.csv"), csv.replace("2,5", "2;5")).unwrap();
+    let told = read(&deck).unwrap_err().to_string();
+    assert!(
+        told.contains("line 4: it has 4 fields, but the first line has 3; decimal commas need"),
+        "{told}"
+    );
 }
 
 #[test]

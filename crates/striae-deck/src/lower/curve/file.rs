@@ -57,6 +57,16 @@ pub(super) fn points(
     let mut points = Vec::new();
     for (number, line) in lines {
         let all: Vec<&str> = separator.fields(line).map(|(_, field)| field).collect();
+        let stated = all.iter().rposition(|field| !field.is_empty());
+        let stated = stated.map_or(0, |last| last + 1);
+        if stated > names.len() {
+            let cause = format!(
+                "it has {stated} fields, but the first line has {}; decimal commas need \
+                 semicolons or tabs between the fields",
+                names.len()
+            );
+            return Err(fault(Some(number), cause));
+        }
         let value = |at: usize| {
             let field = all.get(fields[at]).copied().unwrap_or("");
             let value = separator.number(field).filter(|value| value.is_finite());
