@@ -161,7 +161,7 @@ impl<'a> Model<'a> {
         if !listed.is_empty() {
             deck += "#\n# Not converted:\n";
             for line in &listed {
-                deck += &format!("#   {}\n", line.replace(['\n', '\r'], " "));
+                deck += &format!("#   {}\n", line.replace(char::is_control, " "));
             }
         }
         let stem = path.file_stem().unwrap_or_default().to_string_lossy();
