@@ -66,8 +66,8 @@ impl Reported {
 #[derive(clap::Args)]
 pub struct Common {
     /// Number of threads; by default that of the machine, or one per rank if there are several.
-    #[arg(long)]
-    threads: Option<std::num::NonZeroUsize>,
+    #[arg(long, value_parser = threads)]
+    threads: Option<usize>,
     /// Print only errors and results.
     #[arg(long)]
     quiet: bool,
@@ -113,12 +113,22 @@ impl Common {
             Voices::Alone => 0,
             Voices::Several => 1,
         };
-        let threads = self.threads.map_or(most, std::num::NonZeroUsize::get);
+        let threads = self.threads.unwrap_or(most);
         rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
             .build_global()
             .map_err(|cause| Failure::Threads(cause.to_string()))
     }
+}
+
+/// Most threads; more than any machine serves only slow a run down.
+const MOST_THREADS: usize = 1024;
+
+/// A number of threads.
+fn threads(text: &str) -> Result<usize, String> {
+    let threads = text.parse().ok();
+    let threads = threads.filter(|threads| (1..=MOST_THREADS).contains(threads));
+    threads.ok_or_else(|| format!("a number from 1 to {MOST_THREADS} is needed"))
 }
 
 /// Runs the deck and prints the result.
