@@ -398,8 +398,9 @@ table! {
         /// Target of the displacement of its reference point. Default: it stays free or at its
         /// place.
         optional displacement: [Number; 3],
-        /// Targets of the rotation angles about the fixed axes, in degrees. Default: they stay free
-        /// or unchanged.
+        /// Targets of the rotation angles about the fixed axes, in degrees, which add up increment
+        /// by increment: the order of turns about several axes counts. Default: they stay free or
+        /// unchanged.
         optional rotation: [Number; 3],
         /// Coordinates that are free from now on and follow the forces; they have no target.
         optional free: Vec<At<Coordinate>>,

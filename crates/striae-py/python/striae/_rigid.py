@@ -76,7 +76,8 @@ class Rigid(Made):
         """Moves or drives the body.
 
         displacement: target of the reference point (length).
-        rotation: targets of the rotation angles about the fixed axes (degrees).
+        rotation: targets of the rotation angles about the fixed axes (degrees), which add up
+            increment by increment: the order of turns about several axes counts.
         free: coordinates that are free from now on and follow the forces.
         force: target of the force at the reference point, on free coordinates.
         torque: target of the torque, on free coordinates (force times length).
