@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import pickle
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -209,6 +210,39 @@ def test_loads_are_carried(rubber: st.NeoHookean) -> None:
         model = st.Model([body])
         model.step("load", body["zmin"].hold(), load(body["zmax"]), increments=1)
         assert model.run()[-1].reaction("bar", "zmin")[2] == pytest.approx(expected, rel=1e-6)
+
+
+def test_energy_that_the_time_integration_creates_is_told() -> None:
+    """Without damping, accelerations of two free bodies on a spring alternate and grow."""
+
+    def pulled(spectral_radius: float) -> st.Run:
+        rigid = []
+        for name, size, at in [("plate", (0.3, 0.2, 0.1), 0.0), ("cube", (0.2, 0.2, 0.2), 1.0)]:
+            corners = np.array([[i, j, k] for k in (0, 1) for j in (0, 1) for i in (0, 1)]) - 0.5
+            faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]
+            mesh = (corners * size + [at, 0, 0], {"quad": np.array(faces)})
+            rigid.append(st.RigidSurface(name, mesh, density=1000.0 if at == 0 else 500.0))
+        plate, cube = rigid
+        held = st.Body("held", st.block((0.1, 0.1, 0.1), (1, 1, 1), origin=(5, 5, 5)), st.NeoHookean(1e6, 0.3), density=1.0)
+        spring = st.Spring(plate, cube, point=(0.15, 0.1, 0.05), point_b=(0.9, -0.1, 0.1), stiffness=50, free_length=0.5)
+        pairs = [st.Pair(held["zmin"], body) for body in rigid]
+        model = st.Model([held], rigid, pairs, springs=[spring])
+        free = [body.move(free=["x", "y", "z", "rx", "ry", "rz"]) for body in rigid]
+        start = plate.velocity((0, 0.3, 0), spin=(0, 0, 1))
+        dynamics = st.Dynamics(spectral_radius)
+        model.step("fly", held["zmax"].hold(), *free, start, duration=2.0, increments=200, dynamics=dynamics)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            return model.run()
+
+    told = [[str(warning) for warning in pulled(radius).warnings if "time integration" in str(warning)] for radius in (1.0, 0.8)]
+    assert len(told[0]) == 1 and "take a smaller `spectral_radius`" in told[0][0]
+    assert told[1] == []
+
+
+def test_gravity_is_stated_once() -> None:
+    with pytest.raises(st.ModelError, match="step `fall`: gravity is stated twice; state the sum"):
+        st.Step("fall", st.gravity((0, 0, -2)), st.gravity((1, 0, 0)))
 
 
 def test_gravity_inertia_and_spin(rubber: st.NeoHookean) -> None:

@@ -47,7 +47,7 @@ use crate::{
     audit::{Doubt, LEAST_SHARE, coarse, doubts},
     initial::{fits, may_meet, meant_depth, other_name},
     interference::{Positions, between, beyond, within},
-    model::{Initial, Model, PairId},
+    model::{Initial, Model, PairId, Procedure},
     newton::{Acceptance, InStep, Increment, Reach},
     node::GlobalNode,
     outcome::Ending,
@@ -203,6 +203,8 @@ pub struct Judgement {
     pub energy: f64,
     /// Largest external work, or work of actuation.
     pub external: f64,
+    /// Energy that the time integration has made.
+    pub integrated: f64,
     /// Energies at the start of the step.
     pub step: Energies,
 }
@@ -277,7 +279,11 @@ impl Judgement {
         self.note(Kind::Contact, None, after.gained, after.time);
         let imbalance = energies.imbalance().abs();
         self.note(Kind::Imbalance, None, imbalance, after.time);
-        self.note(Kind::Integration, None, -energies.numerical, after.time);
+        if problem.model.steps[in_step.step].procedure != Procedure::QuasiStatic {
+            // Increments of a quasi-static step lose and gain by their finite size alone.
+            self.integrated += before.energies.numerical - energies.numerical;
+            self.note(Kind::Integration, None, self.integrated, after.time);
+        }
         if in_step.reach == Reach::End {
             self.stabilisation(after);
         }

@@ -32,6 +32,10 @@ class Condition:
         return f"<{self._told}>"
 
 
+class _Gravity(Condition):
+    """Gravity, which is one for the whole model."""
+
+
 def gravity(acceleration: Vector, *, curve: Curve = "ramp") -> Condition:
     """Gravity on all bodies with a density, until a later step restates it.
 
@@ -39,7 +43,7 @@ def gravity(acceleration: Vector, *, curve: Curve = "ramp") -> Condition:
     curve: how the target is approached.
     """
     target, along = check.vector(acceleration, "acceleration"), check.curve(curve, "curve")
-    return Condition(f"gravity {target}", lambda step: step.gravity(target, along))
+    return _Gravity(f"gravity {target}", lambda step: step.gravity(target, along))
 
 
 class Increments:
@@ -118,6 +122,8 @@ class Step(Made):
             self._native.equal(check.whole(increments, "increments"))
         if dynamics is not None:
             self._native.dynamic(check.kind(dynamics, Dynamics, "dynamics").spectral_radius)
+        if sum(isinstance(condition, _Gravity) for condition in conditions) > 1:
+            raise refuse(f"step `{name}`", "gravity is stated twice; state the sum of both")
         for condition in conditions:
             check.kind(condition, Condition, f"step `{name}`")._apply(self._native)
 
