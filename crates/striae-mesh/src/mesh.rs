@@ -335,8 +335,16 @@ mod tests {
     #[test]
     fn three_elements_in_one_face_are_refused() {
         let mut mesh = two_elements();
-        let twice = mesh.blocks[0].corners(1).to_vec();
-        mesh.blocks[0].nodes.extend(twice);
+        let mut third = mesh.blocks[0].corners(1).to_vec();
+        let shared = mesh.blocks[0].corners(0).to_vec();
+        for corner in &mut third {
+            if !shared.contains(corner) {
+                let apart = mesh.positions[corner.index()] + Vec3::new(0.0, 2.0, 0.0);
+                *corner = NodeId::new(mesh.positions.len());
+                mesh.positions.push(apart);
+            }
+        }
+        mesh.blocks[0].nodes.extend(third);
         assert!(matches!(mesh.check(), Err(MeshError::CrowdedFace { .. })));
     }
 }

@@ -304,7 +304,7 @@ fn what_measurements_leave_open_is_said() {
     ] {
         let readings = readings.iter();
         let readings: Vec<_> = readings
-            .map(|&(angle, mu)| Reading::against(angle, mu))
+            .map(|&(angle, mu): &(f64, f64)| Reading::against(angle.to_radians(), mu))
             .collect();
         let refused = fit(&sought(name), &readings, 0.95).unwrap_err();
         assert!(
