@@ -47,6 +47,8 @@ pub struct Model {
     pub output: Output,
     /// The deck, if that is all there is to the model.
     pub deck: Option<PathBuf>,
+    /// Numbers by which the deck asks for derivatives.
+    pub wrt: Vec<String>,
     /// Exceptions raised by functions that state laws.
     pub raised: Vec<Raised>,
 }
@@ -155,6 +157,7 @@ impl Model {
             model: Arc::new(read.model),
             output: read.output,
             deck: Some(path),
+            wrt: read.wrt,
             raised: Vec::new(),
         })
     }
@@ -165,6 +168,7 @@ impl Model {
         let read = read.map_err(|faults| raised(Error::Deck(faults), "deck"))?;
         Ok(Self {
             output: read.output,
+            wrt: read.wrt,
             ..Self::of(read.model)
         })
     }
@@ -180,6 +184,12 @@ impl Model {
             raised: self.raised.clone(),
             ..Self::of(model)
         })
+    }
+
+    /// Numbers by which the deck asks for derivatives.
+    #[getter]
+    fn wrt(&self) -> Vec<String> {
+        self.wrt.clone()
     }
 
     /// The text of a deck that reads back to the model.
@@ -277,11 +287,13 @@ impl Model {
 }
 
 impl Model {
-    fn of(model: model::Model) -> Self {
+    /// A model that no deck states.
+    pub fn of(model: model::Model) -> Self {
         Self {
             model: Arc::new(model),
             output: Output::default(),
             deck: None,
+            wrt: Vec::new(),
             raised: Vec::new(),
         }
     }

@@ -146,10 +146,8 @@ impl Run {
     /// The model that was run.
     fn model(&self) -> Model {
         Model {
-            model: Arc::new(self.finished.problem.model.clone()),
-            output: Output::default(),
-            deck: None,
             raised: self.raised.clone(),
+            ..Model::of(self.finished.problem.model.clone())
         }
     }
 

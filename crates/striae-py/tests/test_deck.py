@@ -64,3 +64,14 @@ def test_the_order_of_loads_changes_no_bit(rubber: st.NeoHookean) -> None:
 def test_names_are_of_one_line(rubber: st.NeoHookean) -> None:
     with pytest.raises(ValueError, match="one line of printable characters"):
         st.Body("a\nb", st.block(), rubber)
+
+
+def test_derivatives_that_a_deck_asks_for_are_told(tmp_path: Path) -> None:
+    deck = (ROOT / "cases/two-blocks/deck.toml").read_text()
+    asked = deck + '\n[sensitivity]\nwrt = ["material.soft.youngs_modulus"]\n'
+    with pytest.warns(UserWarning, match="asks for derivatives by `material.soft.youngs_modulus`"):
+        st.Model.from_text(asked)
+    (tmp_path / "deck.toml").write_text(asked)
+    with pytest.warns(UserWarning, match=r"use striae.differentiate") as told:
+        st.Model.from_deck(tmp_path / "deck.toml")
+    assert [warning.filename for warning in told] == [__file__]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -47,6 +48,14 @@ def test_what_is_no_parameter_is_told() -> None:
         run.gradient("force", "mu")
     with pytest.raises(KeyError, match="`time` says which increment a row is of"):
         run.gradient("time", "mu")
+    with pytest.raises(KeyError, match="`iterations` is a count, which has no derivative"):
+        run.gradient("iterations", "mu")
+    for returned in (None, [1.0, 2.0], "a lot"):
+        function: Any = lambda end, value=returned: value
+        with pytest.raises(TypeError, match="has to return a number, but it returned"):
+            run.gradient(function, "mu")
+    with pytest.raises(st.ModelError, match=r"both sides of mu = 0, but at mu = -1e-05 there is none"):
+        st.differentiate(model_of, {"mu": 0.0})
     with pytest.raises(TypeError, match="a column or a function"):
         run.gradient(3, "mu")  # type: ignore[call-overload]
     with pytest.raises(ValueError, match="at least one parameter"):

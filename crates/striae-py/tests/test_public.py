@@ -58,6 +58,11 @@ def test_everything_is_listed() -> None:
     assert (Path(st.__file__).parent / "py.typed").exists()
 
 
+def test_the_version_is_that_of_the_package() -> None:
+    manifest = (Path(__file__).parents[3] / "Cargo.toml").read_text()
+    assert f'version = "{st.__version__}"' in manifest
+
+
 @pytest.mark.parametrize("name, thing", ALL, ids=[name for name, _ in ALL])
 def test_it_has_a_docstring(name: str, thing: object) -> None:
     if isinstance(thing, (int, st.Status)):

@@ -10,6 +10,7 @@ import sys
 import threading
 import time
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -101,6 +102,10 @@ def test_the_history_is_a_table(model: st.Model) -> None:
     )
     with pytest.raises(KeyError, match="no column is named `resultant_a.z`; similar are"):
         history["resultant_a.z"]
+    listed: Any = ["time"]
+    for wrong in [history.__getitem__, history.plot]:
+        with pytest.raises(KeyError, match=r"by its name, a string, not by \['time'\]"):
+            wrong(listed)
 
 
 def test_the_callback_sees_each_increment_and_stops_the_run(model: st.Model) -> None:

@@ -51,6 +51,13 @@ def test_processes_give_the_bits_of_this_one(tmp_path: Path) -> None:
     assert [point.run.folder for point in two] == [tmp_path / str(n) for n in range(1, 5)]
 
 
+def test_columns_of_a_table_keep_their_names() -> None:
+    points = st.sweep(model_of, {"mu": [0.1], "depth": [0.01]})
+    for name in ("mu", "ending"):
+        with pytest.raises(st.ModelError, match=f"{name}: there is a column of that name already"):
+            points.to_pandas(**{name: lambda run: run.seconds})
+
+
 def stuck(force: float) -> st.Model:
     """Nothing holds the block sideways."""
     body, floor = st.Body("pad", st.block(), st.NeoHookean(1e6, 0.3)), st.Plane("floor")

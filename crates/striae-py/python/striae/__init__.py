@@ -19,6 +19,8 @@ Quantities are in one consistent system of units of your choice, for instance m,
 docstrings say what each is. Angles are in degrees. Nodes count from 0.
 """
 
+from importlib.metadata import version as _version
+
 from . import contact
 from ._axes import CylindricalAxes, NormalAxis
 from ._body import Body, BodySet
@@ -69,6 +71,8 @@ from ._texture import Texture
 from ._textures import *
 from ._textures import __all__ as _textures
 from ._tie import Tie
+
+__version__ = _version("striae")
 
 __all__ = [
     "Advice",

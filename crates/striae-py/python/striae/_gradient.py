@@ -6,7 +6,8 @@ from collections.abc import Callable, Mapping
 from typing import Literal, Optional
 
 from . import _check as check
-from ._errors import refuse
+from . import _striae as native
+from ._errors import ModelError, refuse
 from ._model import Model
 from ._run import Callback, Keep, Path, Run, concluded, record, watch
 
@@ -52,11 +53,25 @@ def differentiate(
         # Such that value and step add up without round-off.
         step = (value + STEP * (abs(value) or 1.0)) - value
         below, above = (
-            check.kind(model_of(**{**values, name: moved}), Model, "model_of")._compiled()
-            for moved in (value - step, value + step)
+            _neighbour(model_of, values, name, moved) for moved in (value - step, value + step)
         )
         steps[name] = step
         neighbours.append((name, step, below, above))
     watching = watch(on_increment, keep, threads, model)
     ended = model._ended(watching, record(output, case, fields_every), neighbours)
     return concluded(ended, model, on_stop, output, steps)
+
+
+def _neighbour(
+    model_of: Callable[..., Model], values: Mapping[str, float], name: str, moved: float
+) -> native.Model:
+    """Returns the model with a parameter moved by its step."""
+    try:
+        model = check.kind(model_of(**{**values, name: moved}), Model, "model_of")
+        return model._compiled()
+    except ModelError as error:
+        raise refuse(
+            name,
+            f"a derivative takes the model on both sides of {name} = {values[name]:g}, but at "
+            f"{name} = {moved:.10g} there is none; differentiate away from the bound: {error}",
+        ) from error

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import os
+import warnings
 from collections.abc import Sequence
 from functools import cached_property
 from typing import Any, Literal, NamedTuple, Optional, Union
@@ -189,9 +190,11 @@ class Model(Strict):
     def from_deck(cls, path: Path) -> Model:
         """The model of a deck; further steps can be added.
 
+        Derivatives that the deck asks for are left to the program and to :func:`differentiate`.
+
         path: the deck, a TOML file.
         """
-        return cls._of(native.Model.from_deck(os.fspath(path)))
+        return cls._of(_told(native.Model.from_deck(os.fspath(path))))
 
     @classmethod
     def from_text(cls, text: str, folder: Path = ".") -> Model:
@@ -200,7 +203,7 @@ class Model(Strict):
         text: the deck, TOML.
         folder: that paths in the deck are relative to.
         """
-        return cls._of(native.Model.from_text(text, os.fspath(folder)))
+        return cls._of(_told(native.Model.from_text(text, os.fspath(folder))))
 
     def to_deck(self, path: Optional[Path] = None) -> str:
         """The model as the text of a deck, from which :meth:`from_text` and the program make an
@@ -520,3 +523,15 @@ class Model(Strict):
             f"Model({self._title!r}, bodies {self.body_names}, rigid {self.rigid_names},"
             f" pairs {self._named if self._base is None else self.pair_names}, ties {self.tie_names}, steps {self.step_names})"
         )
+
+
+def _told(model: native.Model) -> native.Model:
+    """Warns of derivatives that a deck asks for, which runs of its model do not compute."""
+    if model.wrt:
+        names = ", ".join(f"`{name}`" for name in model.wrt)
+        warnings.warn(
+            f"[sensitivity] of the deck asks for derivatives by {names}, which a run of its model "
+            "does not compute; run the deck with the program, or use striae.differentiate",
+            stacklevel=3,
+        )
+    return model

@@ -32,11 +32,12 @@ def _axes(axes: Optional[Axes]) -> Axes:
 
 def draw_history(history: History, columns: Sequence[str], axes: Optional[Axes]) -> Axes:
     """Columns over time; the forces of all pairs by default."""
-    on = _axes(axes)
     chosen = list(columns) or [name for name in history if ".resultant_a." in name]
-    for name in chosen:
+    values = [history[name] for name in chosen]
+    on = _axes(axes)
+    for name, value in zip(chosen, values):
         label = name.removeprefix("pair.").replace(".resultant_a.", ", ")
-        on.plot(history["time"], history[name], marker=".", label=label if not columns else name)
+        on.plot(history["time"], value, marker=".", label=label if not columns else name)
     on.set_xlabel("time")
     on.set_ylabel("force on side a" if not columns else "")
     if chosen:

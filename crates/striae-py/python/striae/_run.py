@@ -58,6 +58,8 @@ class History(Mapping[str, Floats]):
 
     def __getitem__(self, column: str) -> Floats:
         """A column, of shape (increments,), in its unit; column: its name."""
+        if not isinstance(column, str):
+            raise KeyError(f"a column is chosen by its name, a string, not by {column!r}")
         if column not in self._columns:
             close = [name for name in self._columns if column in name][:8]
             hint = f"; similar are {close}" if close else ""
@@ -89,6 +91,16 @@ class History(Mapping[str, Floats]):
 
     def __repr__(self) -> str:
         return f"<history of {len(self._rows)} increments, {len(self)} columns>"
+
+
+def _number_of(value: Any) -> float:
+    """Returns what a function of an increment returned, a number."""
+    try:
+        return float(value + 0.0)
+    except TypeError:
+        raise TypeError(
+            f"of: the function has to return a number, but it returned {value!r:.80}"
+        ) from None
 
 
 class Run(Sequence[Increment]):
@@ -146,10 +158,10 @@ class Run(Sequence[Increment]):
     ) -> Union[Floats, float]:
         """Derivative of a result by a parameter of a run made by :func:`differentiate`.
 
-        of: a column of the history other than ``increment``, ``step`` and ``time``, for its
-            derivative over the increments, of shape (increments,); or a function of an increment that returns a number, for the
-            derivative of that at the end of the run. Units: those of the result over those of
-            the parameter.
+        of: a column of the history other than ``increment``, ``step``, ``time`` and counts, for
+            its derivative over the increments, of shape (increments,); or a function of an
+            increment that returns a number, for the derivative of that at the end of the run.
+            Units: those of the result over those of the parameter.
         wrt: the parameter.
         """
         if wrt not in self._parameters:
@@ -162,13 +174,17 @@ class Run(Sequence[Increment]):
                 "function of an increment, such as `lambda end: end.time`"
             )
         if isinstance(of, str):
-            return History(*self._native.derivatives(number))[of]
+            derivatives = History(*self._native.derivatives(number))
+            if of in self._history and of not in derivatives:
+                raise KeyError(f"`{of}` is a count, which has no derivative")
+            return derivatives[of]
         if not callable(of):
             raise TypeError(f"of: a column or a function of an increment is needed, not {of!r}")
         below, above = (
-            of(Increment(results, self._model)) for results in self._native.neighbours(number)
+            _number_of(of(Increment(results, self._model)))
+            for results in self._native.neighbours(number)
         )
-        return float((above - below) / (2.0 * self._parameters[wrt]))
+        return (above - below) / (2.0 * self._parameters[wrt])
 
     @property
     def unknowns(self) -> int:

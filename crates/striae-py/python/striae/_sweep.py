@@ -66,6 +66,10 @@ class Sweep(Sequence[SweepPoint]):
         """
         import pandas
 
+        taken = {"ending"}.union(*(point.parameters for point in self._points))
+        for name in measures:
+            if name in taken:
+                raise refuse(name, "there is a column of that name already; give it another one")
         rows = [
             {
                 **point.parameters,
