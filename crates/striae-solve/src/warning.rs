@@ -279,7 +279,8 @@ impl Judgement {
         self.note(Kind::Contact, None, after.gained, after.time);
         let imbalance = energies.imbalance().abs();
         self.note(Kind::Imbalance, None, imbalance, after.time);
-        if problem.model.steps[in_step.step].procedure != Procedure::QuasiStatic {
+        let step = problem.model.steps.get(in_step.step);
+        if step.is_some_and(|step| step.procedure != Procedure::QuasiStatic) {
             // Increments of a quasi-static step lose and gain by their finite size alone.
             self.integrated += before.energies.numerical - energies.numerical;
             self.note(Kind::Integration, None, self.integrated, after.time);

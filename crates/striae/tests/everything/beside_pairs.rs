@@ -63,18 +63,17 @@ friction = { law = "coulomb", mu = 0.3 }
     });
     assert_eq!(found.ending, Ending::Completed);
     assert_eq!(found.increments, named.increments);
-    let forces = |run: &Finished, pair: &str| -> Vec<[f64; 3]> {
-        let columns = ["x", "y", "z"].map(|axis| {
-            let name = format!("pair.{pair}.resultant_a.{axis}");
-            let mut columns = run.history.columns.iter();
-            columns.position(|column| *column == name).unwrap()
-        });
-        let rows = run.history.rows.iter();
-        rows.map(|row| columns.map(|column| row[column])).collect()
+    let forces = |run: &Finished, pair: &str| -> [Vec<f64>; 3] {
+        let column = |axis| {
+            run.history
+                .column(&format!("pair.{pair}.resultant_a.{axis}"))
+        };
+        ["x", "y", "z"].map(|axis| column(axis).unwrap())
     };
     let named = forces(&named, "soles");
     let found = forces(&found, "lower.zmax-upper.zmin");
-    assert!(named[3][2] < -0.01 && named[15] == [0.0; 3], "{named:?}");
+    let last = named.each_ref().map(|axis| axis[15]);
+    assert!(named[2][3] < -0.01 && last == [0.0; 3], "{named:?}");
     for (named, found) in named.iter().flatten().zip(found.iter().flatten()) {
         assert!((named - found).abs() < 1e-10, "{named} {found}");
     }
@@ -123,10 +122,8 @@ SEARCH
         let run = Simulation::of(deck).unwrap().run().unwrap();
         assert_eq!(run.ending, Ending::Completed);
         assert!(run.summary.warnings.is_empty());
-        let columns = run.history.columns.iter();
-        let column = "reaction.upper.zmax.z";
-        let at = columns.clone().position(|name| name == column).unwrap();
-        run.history.rows.last().unwrap()[at]
+        let force = run.history.column("reaction.upper.zmax.z").unwrap();
+        force[1]
     };
     let named = pressed(named, "");
     assert!(named < -100.0, "{named}");
