@@ -7,7 +7,7 @@ use striae_law::{
 };
 use striae_mesh::{Vec3, generate::Block};
 use striae_solve::{
-    drive::{Continue, Observer, Progress, run},
+    drive::{Continue, Observer, Progress, run_after},
     model::{
         Axes, Backend, Body, BodyId, ContactMass, ContactSurface, Curve, Displacement, Formulation,
         Increments, Initial, Model, Pair, Procedure, Solver, Step, Strategy,
@@ -21,6 +21,9 @@ use striae_solve::{
 use striae_surface::node::SurfaceNode;
 
 use crate::reference::Case;
+
+/// Largest difference between a share of a support and the sum over its points.
+const POINTS: f64 = 0.05;
 
 /// Quantities compared at the end of an increment.
 pub struct Faces {
@@ -43,10 +46,23 @@ pub struct History {
 impl History {
     /// Runs a case.
     pub fn of(case: &Case, depth: f64) -> Self {
-        let problem = Problem::new(model(case, depth)).expect("a model");
+        let whole = model(case, depth);
         let mut states = States::default();
-        let (_, ending) = run(&problem, State::undeformed(&problem), &mut states);
-        assert_eq!(ending, Ending::Completed, "{} at {depth}", case.name);
+        let mut state = None;
+        // Step by step, as shares are replaced in between.
+        for (at, increment) in case.increments.iter().enumerate() {
+            let mut model = whole.clone();
+            model.steps.truncate(at + 1);
+            let problem = Problem::new(model).expect("a model");
+            let from = state.unwrap_or_else(|| State::undeformed(&problem));
+            let (mut reached, ending) = run_after(&problem, at, from, at, &mut states);
+            assert_eq!(ending, Ending::Completed, "{} at {depth}", case.name);
+            if !increment.shares.is_empty() {
+                take_shares(case, &problem, &mut reached, &increment.shares);
+            }
+            state = Some(reached);
+        }
+        let problem = Problem::new(whole).expect("a model");
         assert_eq!(states.0.len(), case.increments.len());
         Self {
             depth,
@@ -77,6 +93,24 @@ impl Observer for States {
     fn cut_back(&mut self, progress: Progress, reason: &CutBack) -> Continue {
         panic!("{progress:?}: {reason}");
     }
+}
+
+/// Continues from the closed shares of the reference, which are sums over points; areas differ from
+/// them by the weight of some points.
+fn take_shares(case: &Case, problem: &Problem, state: &mut State, shares: &[f64]) {
+    let mut shares = shares.iter();
+    let pair = &mut state.pairs[0];
+    for side in Side::BOTH {
+        for node in in_order(case, problem, side) {
+            if pair.kept[side][node] {
+                let share = *shares.next().expect("a share of each kept node");
+                let own = &mut pair.nodes[side][node].closed;
+                assert!((*own - share).abs() < POINTS, "{own} {share}");
+                *own = share;
+            }
+        }
+    }
+    assert!(shares.next().is_none());
 }
 
 fn faces(case: &Case, problem: &Problem, state: &State) -> Faces {

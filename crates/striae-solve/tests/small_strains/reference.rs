@@ -28,6 +28,8 @@ pub struct Increment {
     pub kept: [Vec<usize>; 2],
     /// Pressure, then friction on the punch along x and y, over the depth.
     pub unknowns: Vec<f64>,
+    /// Closed shares of the kept nodes, as sums over points; empty where all are one.
+    pub shares: Vec<f64>,
     /// Nodal forces over the depth by side.
     pub forces: [Vec<f64>; 2],
 }
@@ -67,6 +69,7 @@ pub fn cases() -> Vec<Case> {
                 rate: [c[2], c[3], c[4]],
                 kept: [Vec::new(), Vec::new()],
                 unknowns: Vec::new(),
+                shares: Vec::new(),
                 forces: [Vec::new(), Vec::new()],
             });
             continue;
@@ -75,6 +78,7 @@ pub fn cases() -> Vec<Case> {
         let of_side = rest.split_once(' ');
         match (word, of_side) {
             ("unknowns", _) => increment.unknowns = numbers(rest),
+            ("shares", _) => increment.shares = numbers(rest),
             ("kept", Some((side, nodes))) => increment.kept[places(side)[0]] = places(nodes),
             ("forces", Some((side, values))) => increment.forces[places(side)[0]] = numbers(values),
             _ => panic!("{word}"),
