@@ -21,15 +21,18 @@ const BOTH: [Option<f64>; 2] = [Some(20.0), Some(65.0)];
 const LAWS: [(Formula, [Option<f64>; 2]); 5] = [
     (Formula::TwoTextures([0.2, 0.1, 0.1, 0.5]), BOTH),
     (Formula::TwoTextures([0.2, 0.2, 0.15, 0.6]), BOTH),
-    (Formula::TwoTextures([0.2, 0.3, 2.0, 0.5]), BOTH),
+    (SHARPEST, BOTH),
     (Formula::Tabulated(STRONG), [Some(20.0), None]),
     (Formula::Tabulated(STRONG), [None, Some(65.0)]),
 ];
 
-/// Presses, slides in eight increments and comes back in eight; returns the iterations of all
-/// increments of the slide, and the number of cuts.
+/// Law whose slip surface has the sharpest ends: how often its reversals are cut hangs on little.
+const SHARPEST: Formula = Formula::TwoTextures([0.2, 0.3, 2.0, 0.5]);
+
+/// Presses, slides in eight increments and comes back in eight; returns the iterations of the
+/// increments with the sharpest law, and the number of its cuts.
 fn slide_and_reverse(name: &str, mesh: Mesh, base: &str, depth: f64) -> (Vec<usize>, usize) {
-    let (mut all, mut cuts) = (Vec::new(), 0);
+    let (mut sharpest, mut cuts) = (Vec::new(), 0);
     for (law, angles) in LAWS {
         let mut model = model(vec![body("block", mesh.clone(), rubber(1.0, 0.3))]);
         let floor = plane([0.0; 3], [0.0, 0.0, 1.0]);
@@ -61,15 +64,23 @@ fn slide_and_reverse(name: &str, mesh: Mesh, base: &str, depth: f64) -> (Vec<usi
         counts.sort_unstable();
         let median = 0.5 * (counts[7] + counts[8]) as f64;
         assert!(median <= 5.0, "{name}, {law:?}: {counts:?}");
-        cuts += run.cuts.len();
-        all.extend(counts);
+        if law == SHARPEST {
+            cuts += run.cuts.len();
+            sharpest.extend(counts);
+            continue;
+        }
+        assert!(run.cuts.is_empty(), "{name}, {law:?}: {:?}", run.cuts);
+        assert!(
+            counts.len() == 16 && counts[15] <= 12,
+            "{name}, {law:?}: {counts:?}"
+        );
     }
-    (all, cuts)
+    (sharpest, cuts)
 }
 
-/// Iterations of a reversal against friction above one hang on little: of 144 runs beside these,
-/// with textures turned by up to 15 degrees, 10 are cut, and 2 of 2300 increments take more than 12
-/// iterations.
+/// One increment and one cut in excess are let pass with the sharpest law alone: of 144 runs beside
+/// these, half of them with it, with textures turned by up to 15 degrees, 10 are cut, and 2 of 2300
+/// increments take more than 12 iterations.
 #[test]
 fn slides_that_reverse_converge_in_few_iterations() {
     let mesh = block([0.0; 3], [1.0, 1.0, 0.6], [4, 4, 2]).mesh().unwrap();
@@ -86,6 +97,6 @@ fn slides_that_reverse_converge_in_few_iterations() {
     let of_cap = slide_and_reverse("cap", mesh.mesh().unwrap(), "cap", 0.06);
     let counts = [of_block.0, of_cap.0].concat();
     let slow = counts.iter().filter(|count| **count > 12).count();
-    assert!(counts.len() >= 160 && slow <= 1, "{counts:?}");
+    assert!(counts.len() >= 32 && slow <= 1, "{counts:?}");
     assert!(of_block.1 + of_cap.1 <= 1, "{counts:?}");
 }
