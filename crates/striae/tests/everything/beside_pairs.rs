@@ -114,6 +114,14 @@ a = { body = "lower", facets = "zmax" }
 b = { body = "upper", facets = "zmin" }
 SEARCH
 "#;
+    let skins = r#"
+[[pair]]
+name = "skins"
+a = { body = "lower", facets = "all" }
+b = { body = "upper", facets = "all" }
+feature_angle = 45
+SEARCH
+"#;
     let all = "[contact]\nall = true\nSEARCH\n";
     let pressed = |contact: &str, search: &str| {
         let contact = contact.replace("SEARCH", search);
@@ -129,10 +137,12 @@ SEARCH
     assert!(named < -100.0, "{named}");
     // However far contact looks, both sheets stay between their outer faces.
     for search in ["", "search_distance = 0.02", "search_distance = 0.3"] {
-        let found = pressed(all, search);
-        assert!(
-            (found - named).abs() < 1e-9 * named.abs(),
-            "{found} {named}"
-        );
+        for contact in [all, skins] {
+            let found = pressed(contact, search);
+            assert!(
+                (found - named).abs() < 1e-9 * named.abs(),
+                "{found} {named}"
+            );
+        }
     }
 }
