@@ -72,7 +72,7 @@ pub(crate) fn write_surface(
         grid.point_arrays.extend(named);
     }
     if let Some(coefficient) = wanted.wear {
-        let depth = Array::new("wear_depth", sums(wanted, 2, coefficient));
+        let depth = Array::new("wear_depth", sums(wanted, 1, coefficient));
         grid.point_arrays.push(depth);
     }
     write(path, &grid)
@@ -132,7 +132,10 @@ fn arrays(
             let rates = nodes.iter().map(|node| node.slip * per_time).collect();
             vec![("slip_rate", Values::Vectors(rates))]
         }
-        ContactField::AccumulatedSlip => vec![("accumulated_slip", sums(wanted, 0, 1.0))],
+        ContactField::AccumulatedSlip => {
+            let slip = &state.pairs[pair].tractions.accumulated[side];
+            vec![("accumulated_slip", Values::Scalars(slip.clone()))]
+        }
         ContactField::WornDepth => {
             let worn = &state.pairs[pair].tractions.worn[side];
             vec![("worn_depth", Values::Scalars(worn.clone()))]
@@ -147,7 +150,7 @@ fn arrays(
                 }
             }
         }
-        ContactField::FrictionWork => vec![("friction_work", sums(wanted, 1, 1.0))],
+        ContactField::FrictionWork => vec![("friction_work", sums(wanted, 0, 1.0))],
         ContactField::Normal => vec![("normal", vectors(|node| node.normal))],
         ContactField::Texture => vec![
             ("texture", vectors(|node| node.texture)),

@@ -1,24 +1,22 @@
-//! Slip history of the nodes of contact surfaces since the start of a run.
+//! Work and wear at the nodes of contact surfaces since the start of a run.
 //!
 //! Over the increments with the slip `du`, pressure `p` and friction traction `tau`
 //!
 //! ```text
-//! accumulated slip       sum |du|
 //! friction work per area sum -tau . du
 //! wear depth             k sum p |du|        (Archard 1953, doi:10.1063/1.1721448)
 //! ```
 //!
-//! Contact knows nothing of this wear depth, an estimate of the first order. Depths that open gaps
-//! are part of the state, see `striae_contact::wear`.
-//!
-//! with pressure and traction at the end of the increment. Open nodes do not slip.
+//! with pressure and traction at the end of the increment. Open nodes do not slip. Contact knows
+//! nothing of this wear depth, an estimate of the first order. Depths that open gaps are part of
+//! the state, see `striae_contact::wear`, and so is the accumulated slip.
 
 use serde::{Deserialize, Serialize};
 use striae_contact::{side::Side, unknowns::Status};
 use striae_solve::state::State;
 
-/// Sums at a node: slip, friction work per area, pressure times slip.
-pub type Sums = [f64; 3];
+/// Sums at a node: friction work per area, pressure times slip.
+pub type Sums = [f64; 2];
 
 /// Sums at the surface nodes of all pairs, by side.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -33,13 +31,12 @@ impl Worn {
         self.pairs.resize_with(state.pairs.len(), Default::default);
         for (sums, of_pair) in self.pairs.iter_mut().zip(&state.pairs) {
             for (sums, nodes) in sums.iter_mut().zip(&of_pair.nodes) {
-                sums.resize(nodes.len(), [0.0; 3]);
+                sums.resize(nodes.len(), [0.0; 2]);
                 let nodes = sums.iter_mut().zip(nodes);
                 for (sums, node) in nodes.filter(|(_, node)| node.status != Status::Open) {
                     let slip = node.slip.norm();
-                    sums[0] += slip;
-                    sums[1] -= node.tau.dot(&node.slip);
-                    sums[2] += node.pressure * slip;
+                    sums[0] -= node.tau.dot(&node.slip);
+                    sums[1] += node.pressure * slip;
                 }
             }
         }
@@ -49,7 +46,7 @@ impl Worn {
     pub fn of(&self, pair: usize, side: Side, nodes: usize) -> Vec<Sums> {
         let known = self.pairs.get(pair).map(|sides| sides[side].clone());
         let mut sums = known.unwrap_or_default();
-        sums.resize(nodes, [0.0; 3]);
+        sums.resize(nodes, [0.0; 2]);
         sums
     }
 }

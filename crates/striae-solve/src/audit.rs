@@ -8,8 +8,6 @@ mod coarse;
 mod friction;
 mod motion;
 
-use striae_contact::side::Side;
-
 use crate::{outcome::CutBack, problem::Problem, state::State};
 
 pub use coarse::{Coarse, coarse};
@@ -65,19 +63,4 @@ impl Doubt {
             },
         }
     }
-}
-
-/// Areas that belong to the nodes of a side.
-fn areas(problem: &Problem, (pair, side): (usize, Side), state: &State) -> Vec<f64> {
-    let Some(surface) = problem.pairs[pair].contact.sides[side].surface() else {
-        return Vec::new();
-    };
-    let mut areas = vec![0.0; surface.nodes().len()];
-    for (facet, of_facet) in &state.pairs[pair].facets[side] {
-        let corners = surface.facets()[facet.index()];
-        for (corner, area) in corners.into_iter().zip(of_facet.area) {
-            areas[corner] += area;
-        }
-    }
-    areas
 }

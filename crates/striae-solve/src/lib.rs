@@ -43,6 +43,7 @@ pub mod spring;
 pub mod stabilisation;
 pub mod state;
 mod support;
+mod surface_history;
 pub mod team;
 pub mod tie;
 pub mod warning;

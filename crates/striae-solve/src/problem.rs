@@ -11,17 +11,21 @@ mod frame;
 mod nodes;
 mod painted;
 mod shadow;
+mod shared_nodes;
 
 pub use contact_facet::ContactFacet;
 pub(crate) use fibres::{add_fibres, thickness_with};
 pub(crate) use frame::Frame;
 pub(crate) use nodes::extent;
 pub use painted::Undirected;
+pub(crate) use shared_nodes::PairNode;
 
 use std::collections::HashMap;
 use striae_contact::{
     interference::Fibre,
     pair::{ContactPair, Geometry, PairedSurface},
+    pair_state::PairState,
+    side::Side,
 };
 use striae_element::{ElementFault, Elements};
 use striae_mesh::{Face, NodeId, Vec3, place};
@@ -45,6 +49,7 @@ use crate::{
 use contact_facet::contact_facets;
 use deformable::deformable;
 use painted::painted;
+use shared_nodes::shared_nodes;
 
 /// A model with what follows from it.
 #[derive(Clone, Debug)]
@@ -83,6 +88,8 @@ pub struct Problem {
     pub shadowed: Vec<[Vec<bool>; 2]>,
     /// Contact facets that each face of each body is.
     pub contact_facets: HashMap<(usize, Face), Vec<ContactFacet>>,
+    /// Nodes of pairs that are one place of a surface, place by place.
+    pub(crate) shared_nodes: Vec<Vec<PairNode>>,
     /// The skins of all bodies of the whole.
     pub(crate) skin: Skin,
     /// Share of the whole problem.
@@ -107,6 +114,23 @@ pub struct PairGeometry {
     pub conditionings: [Option<Conditioning>; 2],
     /// Fibres through what is behind the facets, see [`crate::interference`].
     pub fibres: [Vec<Option<Fibre>>; 2],
+}
+
+impl PairGeometry {
+    /// Areas that belong to the nodes of a side, `integral N_J da` over what is opposite.
+    pub(crate) fn areas(&self, side: Side, state: &PairState) -> Vec<f64> {
+        let Some(surface) = self.contact.sides[side].surface() else {
+            return Vec::new();
+        };
+        let mut areas = vec![0.0; surface.nodes().len()];
+        for (facet, of_facet) in &state.facets[side] {
+            let corners = surface.facets()[facet.index()];
+            for (corner, area) in corners.into_iter().zip(of_facet.area) {
+                areas[corner] += area;
+            }
+        }
+        areas
+    }
 }
 
 /// A model that cannot be solved.
@@ -255,6 +279,7 @@ impl Problem {
         Ok(Self {
             cavities: crate::cavity::surfaces(&model, &first_node, at),
             contact_facets: contact_facets(&pairs),
+            shared_nodes: shared_nodes(&pairs, &first_node, &reference),
             masses: masses(&model, &elements, &compositions, (&first_node, &massless)),
             massless,
             plans,

@@ -40,7 +40,7 @@ pub struct Selection {
     pub partners: Vec<Option<Partner>>,
     /// Overlap of the meshes at the nodes that is not removed yet, by side; empty if there is none.
     pub offsets: [Vec<f64>; 2],
-    /// Depth that has worn off the nodes at the start, by side; empty for pairs without wear.
+    /// Depth that has worn off the nodes at the start, by side; empty where nothing has.
     pub worn: [Vec<f64>; 2],
     /// In which directions friction of the kept nodes is determined; empty where it is in all.
     pub slip_freedoms: Vec<SlipFreedom>,

@@ -89,7 +89,7 @@ impl Zone {
         at: &Configuration,
     ) -> Option<Self> {
         let surface = problem.pairs[pair].contact.sides[side].surface()?;
-        let areas = super::areas(problem, (pair, side), state);
+        let areas = problem.pairs[pair].areas(side, &state.pairs[pair]);
         let results = state.pairs[pair].nodes[side].iter().zip(areas).enumerate();
         let pressed = results.filter(|(_, (node, area))| node.pressure > 0.0 && *area > 0.0);
         let pressed = pressed.filter_map(|(node, (_, area))| {

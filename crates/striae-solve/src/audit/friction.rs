@@ -55,7 +55,7 @@ pub(super) fn gain(problem: &Problem, pair: usize, states: [&State; 2]) -> Optio
 fn on_side(problem: &Problem, (pair, side): (usize, Side), states: [&State; 2]) -> Option<Gain> {
     let [before, after] = states;
     let at = configuration(problem, pair, Positions::from(after));
-    let areas = super::areas(problem, (pair, side), after);
+    let areas = problem.pairs[pair].areas(side, &after.pairs[pair]);
     let results = [before, after].map(|state| &state.pairs[pair].nodes[side]);
     let kept = &after.pairs[pair].kept[side];
     let nodes = results[1].iter().zip(areas).enumerate();

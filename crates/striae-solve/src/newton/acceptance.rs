@@ -1,11 +1,12 @@
 //! From a converged trial to the next state: tractions, velocities, energies.
 
-use striae_contact::selection::Selection;
+use striae_contact::{pair_state::PairState, selection::Selection};
 
 use super::energy::Ends;
 use crate::{
     assembly::{Assembled, Imposed, StepContext, Trial},
     state::State,
+    surface_history,
 };
 
 /// The state that a converged increment leads to.
@@ -44,7 +45,7 @@ pub(super) fn accepted(
         .sum();
     let energies = ends.energies(friction);
     let gained = ends.gained(friction);
-    let pairs = trial
+    let mut pairs: Vec<PairState> = trial
         .tractions
         .into_iter()
         .zip(selections)
@@ -56,6 +57,7 @@ pub(super) fn accepted(
             },
         )
         .collect();
+    surface_history::join(context.problem, &context.plan.frictions, &mut pairs);
     State {
         time,
         positions: trial.positions,

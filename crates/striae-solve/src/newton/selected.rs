@@ -74,7 +74,8 @@ fn without_freedoms(
         .enumerate()
         .map(|(pair, of_pair)| {
             let wears = context.pairs[pair].wears();
-            let worn = match wears {
+            // Other pairs may have worn its surfaces.
+            let worn = match deepest(&of_pair.tractions.worn) > 0.0 {
                 true => of_pair.tractions.worn.clone(),
                 false => [Vec::new(), Vec::new()],
             };

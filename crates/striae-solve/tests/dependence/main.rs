@@ -8,5 +8,6 @@ mod scene;
 mod blocks;
 mod factors;
 mod healing;
+mod shared;
 mod slider;
 mod sphere;
