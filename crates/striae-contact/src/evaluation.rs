@@ -19,6 +19,7 @@ use crate::{
     factors::{Evolving, NodeFactor, Seen, factors},
     field::{FacetForces, Fields, facet_terms},
     frame::{Frame, Frames, frames},
+    history::History,
     kinematics::{Kinematics, Pressure, Report},
     pair::Enforcement,
     pairing::{Corners, Folded, topology},
@@ -33,7 +34,7 @@ use crate::{
     texture::{CollapsedTexture, Textures, own, textures},
     traction::{NodalTractions, Surroundings, nodal_tractions},
     transported::Transported,
-    unknowns::{NodeResult, Status, Tractions},
+    unknowns::{NodeResult, Status, Tractions, begun},
     wear::{self, Worn},
     weighted,
 };
@@ -147,12 +148,19 @@ pub fn evaluate(
         rates: &rates,
         kinematics: &kinematics,
     };
-    let of_nodes = (selection, tractions);
+    let histories: Vec<History> = match slip {
+        Slip::Left => Vec::new(),
+        Slip::Wanted => (0..selection.kept().len())
+            .map(|k| History::new(selection, tractions, k))
+            .collect(),
+    };
+    let of_nodes = (selection, tractions, &*histories);
     let factors = factors(configuration, start, friction, of_nodes, seen);
     let factors = factors.map_err(Collapse::Factor)?;
     let surroundings = Surroundings {
         friction,
         factors: &factors,
+        histories: &histories,
         frames: &frames,
         textures: &textures,
         rates: &rates,
@@ -180,6 +188,7 @@ pub fn evaluate(
         kinematics: &kinematics,
         rates: &rates,
         factors: &factors,
+        histories: &histories,
         tau: &tau,
     };
     let mut evaluation = stage.nodal(&patches);
@@ -205,6 +214,7 @@ struct Stage<'a> {
     kinematics: &'a [Kinematics],
     rates: &'a SlipRates,
     factors: &'a [NodeFactor],
+    histories: &'a [History<'a>],
     tau: &'a NodalTractions,
 }
 
@@ -285,11 +295,17 @@ impl Evaluation {
 
     fn add_rows(&mut self, stage: &Stage, conditions: Conditions, derivatives: Derivatives) {
         let kept = stage.selection.kept();
+        let law = conditions.friction.rate_and_state();
+        let state = |history: &History| match law {
+            Some(law) => history.of(|(side, node)| begun(law, stage.tractions.states[side][node])),
+            None => 0.0,
+        };
         let found: Vec<Option<(LocalTerm, NodeResult, Status)>> = (0..kept.len())
             .into_par_iter()
             .with_min_len(8)
             .map(|k| {
                 let (side, node) = kept[k].place();
+                let history = stage.histories.get(k);
                 let contact_node = ContactNode {
                     side,
                     node,
@@ -298,8 +314,8 @@ impl Evaluation {
                     textures: &stage.textures[side][node],
                     rate: &stage.rates[side][node],
                     slipped: stage.tractions.slipped[side][node],
-                    accumulated: stage.tractions.accumulated[side][node],
-                    friction_state: stage.tractions.states[side][node],
+                    accumulated: history.map_or(0.0, |history| history.slip),
+                    friction_state: history.map_or(0.0, state),
                     factor: stage.factors.get(k),
                     freedom: stage.selection.slip_freedom(k),
                     before: stage.tractions.labels[side][node],

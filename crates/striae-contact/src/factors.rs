@@ -12,6 +12,7 @@ use crate::{
     configuration::Configuration,
     factor_states::FactorStates,
     frame::Frames,
+    history::History,
     kinematics::Kinematics,
     selection::Selection,
     side::Side,
@@ -60,7 +61,7 @@ pub(crate) fn factors(
     configuration: &Configuration,
     start: &Configuration,
     friction: &Friction,
-    (selection, tractions): (&Selection, &Tractions),
+    (selection, tractions, histories): (&Selection, &Tractions, &[History]),
     seen: Seen,
 ) -> Result<Vec<NodeFactor>, FactorFailure> {
     let Some(law) = friction.factor() else {
@@ -72,7 +73,8 @@ pub(crate) fn factors(
         time: configuration.time,
         ..FactorPoints::default()
     };
-    for (kept, kinematics) in selection.kept().iter().zip(seen.kinematics) {
+    let kept = selection.kept().iter().zip(seen.kinematics);
+    for ((kept, kinematics), history) in kept.zip(histories) {
         let (side, node) = kept.place();
         let [p, ..] = tractions.nodes[side][node];
         let frame = seen.frames[side][node].as_ref();
@@ -83,17 +85,18 @@ pub(crate) fn factors(
             .pressure
             .push(kinematics.bounding_pressure(p).max(0.0));
         points.slip_rate.push(seen.rates[side][node].value);
-        points
-            .accumulated_slip
-            .push(tractions.accumulated[side][node]);
+        points.accumulated_slip.push(history.slip);
         points.position.push(start.side(side).x[node]);
         points
             .normal
             .push(frame.map_or(Vec3::z(), |frame| frame.n.value));
         points.own.push(vector(&textures.own));
         points.opposite.push(vector(&textures.opposite));
-        let state = state(tractions, law.name(), &initial, side, node.index());
-        points.states.extend(state);
+        let states = (0..initial.len()).map(|at| {
+            history
+                .of(|(side, node)| state(tractions, law.name(), &initial, side, node.index())[at])
+        });
+        points.states.extend(states);
     }
     let count = points.len();
     let goes_with_rate = friction.depends_on_rate();

@@ -59,6 +59,7 @@ pub mod factor_states;
 pub mod factors;
 pub mod field;
 pub mod frame;
+pub mod history;
 pub mod initial;
 pub mod interface;
 pub mod interference;

@@ -15,6 +15,7 @@ use crate::{
     configuration::Configuration,
     factors::NodeFactor,
     frame::{Frame, Frames},
+    history::History,
     kinematics::{Kinematics, Pressure},
     selection::Selection,
     side::Side,
@@ -44,6 +45,8 @@ pub struct Surroundings<'a> {
     pub kinematics: &'a [Kinematics],
     /// Factors of friction at the kept nodes, if there are some.
     pub factors: &'a [NodeFactor],
+    /// Histories of the kept nodes, if there is friction.
+    pub histories: &'a [History<'a>],
 }
 
 /// Friction tractions of all kept nodes.
@@ -70,7 +73,7 @@ pub fn nodal_tractions(
                         surroundings,
                         frame,
                         (side, node),
-                        (first, unknowns, tractions.accumulated[side][node]),
+                        (first, unknowns, surroundings.histories[k as usize].slip),
                         (kinematics, surroundings.factors.get(k as usize)),
                     )
                 }

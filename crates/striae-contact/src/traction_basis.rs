@@ -93,6 +93,9 @@ pub struct TractionBasis {
     /// Rows of `M` by place among the kept nodes, ascending: how wear at them opens the gaps, see
     /// `wear_rows`. Empty for pairs without wear.
     pub wear: Vec<Vec<(u32, f64)>>,
+    /// Nodes of the surface opposite to the kept nodes, with their shares in its mean over the
+    /// support, `D_kJ/sum_J D_kJ`; empty against a rigid surface.
+    pub opposite: Vec<Vec<(Side, SurfaceNode, f64)>>,
 }
 
 impl TractionBasis {
@@ -132,6 +135,7 @@ impl TractionBasis {
             ramp: Vec::new(),
             coupling: Vec::new(),
             wear: Vec::new(),
+            opposite: opposite(interface, mass, &choice.kept),
         };
         for (k, &KeptNode { side, node }) in basis.kept.iter().enumerate() {
             basis.index[side][node] = Some(k as u32);
@@ -269,6 +273,26 @@ fn facing(interface: &Interface, kept: KeptNode) -> f64 {
         _ => 0.0,
     };
     own + other
+}
+
+/// Nodes of the surface opposite to the kept ones, with `D_kJ/sum_J D_kJ`.
+fn opposite(
+    interface: &Interface,
+    mass: &CommonMass,
+    kept: &[u32],
+) -> Vec<Vec<(Side, SurfaceNode, f64)>> {
+    let opposite = |&k: &u32| {
+        let own = mass.nodes[k as usize];
+        let row = mass.rows[k as usize].iter();
+        let others = row.map(|&(other, common)| (mass.nodes[other as usize], common));
+        let others = others.filter(|(other, _)| interface.sign([own, *other]) < 0.0);
+        let whole: f64 = others.clone().map(|(_, common)| common).sum();
+        let shares = others.filter(|_| whole > 0.0);
+        shares
+            .map(|((side, node), common)| (side, node, common / whole))
+            .collect()
+    };
+    kept.iter().map(opposite).collect()
 }
 
 /// `integral phi_k` of the kept nodes.

@@ -30,7 +30,7 @@ use super::{
 use crate::{
     configuration::Configuration,
     term::{gradient, variable},
-    unknowns::{Status, begun},
+    unknowns::Status,
 };
 
 /// `v theta/D` below which a node sticks: its state grows by 1 % less than at rest.
@@ -51,7 +51,7 @@ pub(super) fn creeping(
         law,
         past: Past {
             slip: state.node.accumulated,
-            state: begun(law, state.node.friction_state),
+            state: state.node.friction_state,
             elapsed: configuration.elapsed,
         },
         pressure: state.node.kinematics.bounding_pressure(p),

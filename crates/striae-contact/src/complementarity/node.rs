@@ -99,9 +99,9 @@ pub struct ContactNode<'a> {
     pub rate: &'a TrackedScalar,
     /// `true` if the node slipped in the last converged increment.
     pub slipped: bool,
-    /// Its slip up to the last converged state.
+    /// Slip that its friction goes by, up to the last converged state.
     pub accumulated: f64,
-    /// State of its friction at the last converged state, zero before there is one.
+    /// State that its friction goes by, at the last converged state.
     pub friction_state: f64,
     /// Factors of its friction, if the law has some.
     pub factor: Option<&'a NodeFactor>,

@@ -45,7 +45,7 @@ pub const FILE: &str = "checkpoint.bin";
 pub const END: &str = "end.bin";
 
 /// Number of the format, to be raised when the content changes.
-pub const FORMAT: u64 = 23;
+pub const FORMAT: u64 = 24;
 
 /// A run in progress.
 #[derive(Clone, Debug, Serialize, Deserialize)]
