@@ -17,7 +17,8 @@ pub struct Source {
 #[derive(clap::Args)]
 pub struct Settings {
     /// Set a parameter of the deck, such as `E=2e6`, or another number by its path, such as
-    /// `material.rubber.youngs_modulus=2e6`; may be repeated.
+    /// `material.rubber.youngs_modulus=2e6`; may be repeated, of one
+    /// name the last counts.
     #[arg(long = "set", value_name = "NAME=VALUE")]
     pub set: Vec<Setting>,
 }

@@ -41,7 +41,7 @@ pub struct Arguments {
     #[command(flatten)]
     constants: Constants,
     /// Angles between the textures of the two sides, in degrees.
-    #[arg(long, value_delimiter = ',', default_values_t = [0.0, 45.0, 90.0, 135.0, 180.0])]
+    #[arg(long, value_delimiter = ',', value_parser = finite, allow_negative_numbers = true, default_values_t = [0.0, 45.0, 90.0, 135.0, 180.0])]
     theta: Vec<f64>,
     /// Folder for the figures; by default results/NAME, or results/law without a deck.
     #[arg(short, long, alias = "output")]
@@ -49,6 +49,14 @@ pub struct Arguments {
     /// Print the numbers as JSON, and draw nothing.
     #[arg(long)]
     json: bool,
+}
+
+/// A finite number.
+fn finite(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(value),
+        _ => Err("expected a finite number, such as `45`".to_owned()),
+    }
 }
 
 /// A friction and what to call it.

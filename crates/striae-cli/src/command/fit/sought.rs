@@ -3,6 +3,7 @@
 use clap::{
     Arg, ArgMatches, Command, Error,
     builder::{PossibleValue, PossibleValuesParser},
+    error::ErrorKind,
 };
 use striae_declared::{Form, Parameter};
 use striae_law::{fit::Sought, friction::LAWS};
@@ -19,6 +20,12 @@ impl clap::FromArgMatches for Law {
             let given: Option<&String> = matches.get_one(parameter.name);
             let word = given.and_then(|given| choices(parameter).find(|(word, _)| word == given));
             if let Some((word, _)) = word {
+                let law = sought.law();
+                if !law.parameters.iter().any(|own| own.name == parameter.name) {
+                    let flag = flag(parameter);
+                    let told = format!("the law `{}` has no `--{flag}`; leave it out", law.name);
+                    return Err(Error::raw(ErrorKind::ArgumentConflict, told));
+                }
                 sought = sought.with(parameter.name, word);
             }
         }
@@ -40,7 +47,7 @@ impl clap::Args for Law {
         let word = |parameter: &'static Parameter| {
             let words = choices(parameter).map(|(word, doc)| PossibleValue::new(word).help(doc));
             Arg::new(parameter.name)
-                .long(parameter.name.replace('_', "-"))
+                .long(flag(parameter))
                 .help(parameter.told())
                 .value_parser(PossibleValuesParser::new(words))
         };
@@ -59,6 +66,11 @@ fn words() -> impl Iterator<Item = &'static Parameter> {
     let laws = LAWS.iter().filter(|law| law.fit.is_some());
     let parameters = laws.flat_map(|law| law.parameters);
     parameters.filter(|parameter| matches!(parameter.form, Form::Word(_)))
+}
+
+/// Flag of a parameter.
+fn flag(parameter: &Parameter) -> String {
+    parameter.name.replace('_', "-")
 }
 
 /// Words of a parameter with their descriptions.
