@@ -10,7 +10,8 @@
 //! ```
 //!
 //! A rule is narrower than another one if the couples that it names are some of those of the
-//! other one; rules of which neither is narrower may not name the same couple.
+//! other one; rules of which neither is narrower may not name the same couple,
+//! unless all of them leave it out.
 
 mod atom;
 mod label;

@@ -62,6 +62,8 @@ pub(super) struct Undecided {
 /// Rules with the couples that they name.
 pub(super) struct Rules {
     couples: Vec<BTreeSet<Couple>>,
+    /// Rules that leave couples out.
+    excluding: Vec<bool>,
 }
 
 impl Rules {
@@ -83,6 +85,10 @@ impl Rules {
         };
         Self {
             couples: rules.iter().map(couples).collect(),
+            excluding: rules
+                .iter()
+                .map(|rule| matches!(rule.stated, Stated::Exclude(_)))
+                .collect(),
         }
     }
 
@@ -106,6 +112,7 @@ impl Rules {
         match least[..] {
             [] => Ok(None),
             [one] => Ok(Some(one)),
+            [first, ..] if least.iter().all(|&one| self.excluding[one]) => Ok(Some(first)),
             [first, second, ..] => Err(Undecided {
                 rules: (first, second),
                 couple,

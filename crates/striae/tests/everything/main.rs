@@ -123,6 +123,18 @@ fn what_follows_a_rigid_surface_does_not_touch_it() -> Result<(), Error> {
     Ok(())
 }
 
+/// Statements that leave the same out agree, whichever is narrower.
+#[test]
+fn exclusions_may_overlap() -> Result<(), Error> {
+    let all = everything().exclude("tread").exclude("carcass");
+    let hold = step("hold").hold("tread", "zmax").hold("carcass", "zmax");
+    let model = builder()?.contact(all).step(hold).build();
+    let model = model.unwrap_or_else(|faults| panic!("{faults}"));
+    let names: Vec<&str> = model.pairs.iter().map(|pair| pair.name.as_str()).collect();
+    assert_eq!(names, ["slit"]);
+    Ok(())
+}
+
 #[test]
 fn faults_have_paths() -> Result<(), Error> {
     let told = |faults: Faults| faults.0[0].to_string();
