@@ -1,6 +1,6 @@
 //! Settings of the output: what a run writes, and how often.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::num::NonZeroUsize;
 
 use striae_mesh::Vec3;
@@ -44,7 +44,7 @@ impl Default for Output {
 }
 
 /// Increments or times at which fields are written.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum FieldOutput {
     /// After every so many increments, and after the last.
     Every(NonZeroUsize),

@@ -245,18 +245,8 @@ pub fn run(
 
 /// Goes on with a recorded run of a deck.
 #[pyfunction]
-pub fn resume(
-    py: Python<'_>,
-    folder: PathBuf,
-    fields_every: Option<usize>,
-    watching: Watching,
-) -> PyResult<Ended> {
-    let simulation = py.detach(|| {
-        let checkpoint = Checkpoint::read(&folder)?;
-        let mut deck = striae::read_again(&checkpoint.source)?;
-        deck.output = writing(deck.output, fields_every);
-        Simulation::resume_from(deck, checkpoint, &folder)
-    });
+pub fn resume(py: Python<'_>, folder: PathBuf, watching: Watching) -> PyResult<Ended> {
+    let simulation = py.detach(|| Simulation::resume(&folder));
     let simulation = simulation.map_err(|error| raised(error, "model"))?;
     watched(py, simulation, watching, Vec::new())
 }
@@ -272,23 +262,21 @@ fn recorded(
     };
     let (folder, case, fields_every) = recording;
     let title = simulation.problem().model.title.clone();
-    let simulation = simulation.writing(writing(output, fields_every));
-    match deck {
+    let simulation = simulation.writing(output);
+    let simulation = match deck {
         Some(deck) => {
             let case = case.unwrap_or_else(|| case_name(&deck));
             simulation.resumable(folder, case, &deck)
         }
         None => simulation.recorded(folder, case.unwrap_or(title)),
-    }
-}
-
-/// Output settings, with so many increments between fields if they are stated.
-fn writing(output: Output, fields_every: Option<usize>) -> Output {
-    let Some(every) = fields_every else {
-        return output;
     };
-    let fields = NonZeroUsize::new(every).map_or(FieldOutput::Last, FieldOutput::Every);
-    Output { fields, ..output }
+    match fields_every {
+        Some(every) => {
+            let fields = NonZeroUsize::new(every).map_or(FieldOutput::Last, FieldOutput::Every);
+            simulation.with_fields(fields)
+        }
+        None => simulation,
+    }
 }
 
 /// Runs while the caller's thread listens.

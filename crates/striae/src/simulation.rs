@@ -26,7 +26,7 @@ use std::{
 use striae_deck::{Deck, Faults, Setting};
 use striae_model::{Model, StepBuilder, Validate, extended};
 use striae_output::{
-    Existing, Output, available_bytes,
+    Existing, FieldOutput, Output, available_bytes,
     checkpoint::{
         self, Checkpoint, CheckpointError, Index, Source, Written, fingerprint, part_fingerprints,
         step_fingerprints,
@@ -280,6 +280,7 @@ impl Simulation {
             written,
             point,
         } = checkpoint;
+        self.output.fields = source.fields.unwrap_or(self.output.fields);
         self.recording = Some(Recording {
             folder: folder.to_owned(),
             case: source.case.clone(),
@@ -339,6 +340,17 @@ impl Simulation {
     fn with_source(mut self, source: Source) -> Self {
         if let Some(recording) = &mut self.recording {
             recording.source = Some(source);
+        }
+        self
+    }
+
+    /// Sets increments or times of fields in place of those of the deck, for a run that is resumed,
+    /// too.
+    pub fn with_fields(mut self, fields: FieldOutput) -> Self {
+        self.output.fields = fields;
+        let recording = self.recording.as_mut();
+        if let Some(source) = recording.and_then(|recording| recording.source.as_mut()) {
+            source.fields = Some(fields);
         }
         self
     }
@@ -534,6 +546,7 @@ fn source(
         settings: settings
             .map(|setting| (setting.name().to_owned(), setting.value()))
             .collect(),
+        fields: None,
         path: std::path::absolute(deck).unwrap_or_else(|_| deck.to_owned()),
         fingerprint: fingerprint(model, output),
         parts: part_fingerprints(model),

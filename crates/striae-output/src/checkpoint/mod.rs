@@ -33,7 +33,9 @@ use striae_solve::{
     share::Share,
 };
 
-use crate::{Checksums, Output, OutputError, ranks::on_first, vtk::Snapshot, worn::Worn};
+use crate::{
+    Checksums, FieldOutput, Output, OutputError, ranks::on_first, vtk::Snapshot, worn::Worn,
+};
 pub use error::CheckpointError;
 pub use index::Index;
 pub(crate) use pieces::is_piece;
@@ -68,6 +70,8 @@ pub struct Source {
     pub path: PathBuf,
     /// Parameters of the deck that were set from outside, with their values.
     pub settings: Vec<(String, f64)>,
+    /// Increments or times of fields, if others than those of the deck were asked for.
+    pub fields: Option<FieldOutput>,
     /// Fingerprint of the meaning of the deck, see [`fingerprint`].
     pub fingerprint: u64,
     /// Fingerprint of each body, rigid surface and pair, by its name.

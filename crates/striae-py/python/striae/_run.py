@@ -514,7 +514,6 @@ def closed(
 def resume(
     folder: Path,
     *,
-    fields_every: Optional[int] = None,
     on_increment: Optional[Callback] = None,
     keep: Keep = "steps",
     threads: Optional[int] = None,
@@ -524,14 +523,11 @@ def resume(
     uninterrupted run.
 
     folder: results folder of the run.
-    fields_every: value with which the run was started.
     on_increment, keep, threads, on_stop: as of :meth:`Model.run`.
     """
     from ._model import Model
 
     model = Model.from_deck(native.deck_of(os.fspath(folder)))
     watching = watch(on_increment, keep, threads, model)
-    if fields_every is not None:
-        check.whole(fields_every, "fields_every", 0)
-    ended = native.resume(os.fspath(folder), fields_every, watching)
+    ended = native.resume(os.fspath(folder), watching)
     return concluded(ended, model, on_stop, folder)

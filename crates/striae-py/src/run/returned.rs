@@ -58,6 +58,7 @@ fn checkpoint(kept: &Kept) -> Checkpoint {
             case: String::new(),
             path: PathBuf::new(),
             settings: Vec::new(),
+            fields: None,
             fingerprint: 0,
             parts: Vec::new(),
             steps: Vec::new(),

@@ -147,6 +147,7 @@ impl Watch<'_> {
                 case: "case".to_owned(),
                 path: PathBuf::from("deck.toml"),
                 settings: Vec::new(),
+                fields: None,
                 fingerprint: fingerprint(model, output),
                 parts: part_fingerprints(model),
                 steps: step_fingerprints(model),
