@@ -51,6 +51,8 @@ pub(super) struct Period {
     pub(super) start: f64,
     pub(super) duration: f64,
     pub(super) at_once: bool,
+    /// Line of the step.
+    pub(super) line: usize,
 }
 
 /// An amplitude over a step.
@@ -204,10 +206,8 @@ impl Model<'_> {
         }
         let kind = keyword.parameter("DEFINITION").unwrap_or("TABULAR");
         let kind = kind.to_uppercase();
-        let offset = match has(keyword, "TIME", "TOTAL TIME") {
-            true => 0.0,
-            false => period.start,
-        };
+        let is_total = has(keyword, "TIME", "TOTAL TIME");
+        let offset = if is_total { 0.0 } else { period.start };
         let mut all = Vec::new();
         for row in &keyword.rows {
             let words = match row.words.iter().rposition(|word| !word.is_empty()) {
@@ -219,9 +219,12 @@ impl Model<'_> {
         let is_absolute = keyword
             .parameter("VALUE")
             .is_some_and(|value| !value.eq_ignore_ascii_case("RELATIVE"));
+        let end = (period.start + period.duration) * (1.0 + 1e-9);
+        let mut goes_on = true;
         let course = match kind.as_str() {
             "TABULAR" | "SMOOTH STEP" => {
-                let pairs = all.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect();
+                let pairs: Vec<_> = all.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect();
+                goes_on = pairs.last().is_some_and(|[time, _]| *time > end);
                 let points = sampled(pairs, kind == "SMOOTH STEP", offset, period);
                 points.map(|points| (points, None))
             }
@@ -232,7 +235,8 @@ impl Model<'_> {
                     interval.ok_or_else(|| format!("amplitude `{name}` without FIXED INTERVAL"))?;
                 let begin = number("BEGIN").unwrap_or(0.0);
                 let place = |(at, a): (usize, &f64)| [begin + at as f64 * interval, *a];
-                let pairs = all.iter().enumerate().map(place).collect();
+                let pairs: Vec<_> = all.iter().enumerate().map(place).collect();
+                goes_on = pairs.last().is_some_and(|[time, _]| *time > end);
                 sampled(pairs, false, offset, period).map(|points| (points, None))
             }
             _ => {
@@ -251,11 +255,26 @@ impl Model<'_> {
         };
         let (points, formula) = course.map_err(|what| format!("amplitude `{name}` {what}"))?;
         self.used.insert(keyword.line);
+        if is_total && goes_on && self.is_left_after(name, period.line) {
+            let what = format!(
+                "*AMPLITUDE `{name}` beyond the end of the step that refers to it: state its conditions in later steps, too"
+            );
+            self.list(keyword.line, what);
+        }
         Ok(Course {
             points,
             formula,
             is_absolute,
         })
+    }
+
+    /// Returns whether there are steps after one, and none of them refers to an amplitude.
+    fn is_left_after(&self, name: &str, step: usize) -> bool {
+        let later = || self.keywords.iter().filter(|keyword| keyword.line > step);
+        let mut later_steps = later()
+            .skip_while(|keyword| keyword.name != "STEP")
+            .peekable();
+        later_steps.peek().is_some() && !later_steps.any(|keyword| has(keyword, "AMPLITUDE", name))
     }
 
     /// Lists amplitudes that nothing refers to.

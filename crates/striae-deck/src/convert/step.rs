@@ -165,6 +165,7 @@ impl<'a> Model<'a> {
                 start,
                 duration,
                 at_once,
+                line: within[0].line,
             },
             increments: [first, smallest, largest].map(|size| size / duration),
             is_dynamic,

@@ -125,3 +125,20 @@ fn what_is_no_course_is_listed() {
         assert!(listed.iter().any(|line| line.contains(what)), "{listed:?}");
     }
 }
+
+/// In total time an amplitude goes on in the steps after, where a deck has to state it again.
+#[test]
+fn amplitudes_in_total_time_are_listed_where_steps_leave_them() {
+    let way = "*AMPLITUDE, NAME=Way, TIME=TOTAL TIME\n0., 0., 2., 1., 4., 3.\n";
+    let driven = with("*BOUNDARY, AMPLITUDE=Way\nPad-1.High, 1, 1, 0.5\n");
+    let later = "*STEP, NAME=Later, NLGEOM=YES\n*STATIC\n0.1, 2., 1e-5, 0.5\n";
+    let again = "*BOUNDARY, AMPLITUDE=Way\nPad-1.High, 1, 1, 0.5\n";
+    let listed = |steps: &str| made(&model("", &format!("{way}{steps}"))).1.listed;
+    assert_listed(&listed(&driven), &[]);
+    assert_listed(
+        &listed(&format!("{driven}{later}*END STEP\n")),
+        &["*AMPLITUDE `Way` beyond the end of the step that refers to it"],
+    );
+    let restated = format!("{driven}{later}{again}*END STEP\n");
+    assert_listed(&listed(&restated), &[]);
+}
