@@ -22,6 +22,16 @@ pub enum ElementError {
         /// Determinant of the deformation gradient.
         determinant: f64,
     },
+    /// In the current configuration, which a law of one's own has no response to.
+    #[error(
+        "its material has no response to its deformation: det F = {determinant:.6e} at Gauss point {point}"
+    )]
+    Refused {
+        /// Local number of the quadrature point.
+        point: usize,
+        /// Determinant of the deformation gradient.
+        determinant: f64,
+    },
     /// In the current configuration, beyond what the material allows.
     #[error(
         "stretched beyond the limit of its material: I1 - 3 = {strain:.6e} at Gauss point {point}, but the law ends at {limit:.6e}"
@@ -74,6 +84,10 @@ pub struct ElementFault {
 pub(super) fn error_at(g: usize) -> impl Fn(ResponseError) -> ElementError {
     move |error| match error {
         ResponseError::Inverted { determinant } => ElementError::Inverted {
+            point: g,
+            determinant,
+        },
+        ResponseError::Refused { determinant } => ElementError::Refused {
             point: g,
             determinant,
         },

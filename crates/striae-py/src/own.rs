@@ -56,7 +56,7 @@ impl BulkLaw for Function {
     }
 
     fn response(&self, gradient: &Matrix3<f64>) -> Result<Response, ResponseError> {
-        let refused = ResponseError::Inverted {
+        let refused = ResponseError::Refused {
             determinant: gradient.determinant(),
         };
         if self.raised.is_set() {

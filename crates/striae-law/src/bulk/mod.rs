@@ -214,6 +214,12 @@ pub enum ResponseError {
         /// Determinant `J` of the deformation gradient.
         determinant: f64,
     },
+    /// A law of one's own has no response to the deformation.
+    #[error("the law has no response to a deformation gradient of determinant {determinant:.6e}")]
+    Refused {
+        /// Determinant `J` of the deformation gradient.
+        determinant: f64,
+    },
     /// The material is stretched beyond what its law allows.
     #[error("the invariant I1 - 3 is {strain:.6e}, but the law ends at {limit:.6e}")]
     Overstretched {

@@ -137,6 +137,7 @@ fn parts(error: &ElementError) -> (usize, usize, [f64; 2]) {
         } => (3, point, [strain, limit]),
         ElementError::Unsettled => (4, 0, [0.0; 2]),
         ElementError::Shrunk { determinant } => (5, 0, [determinant, 0.0]),
+        ElementError::Refused { point, determinant } => (6, point, [determinant, 0.0]),
     }
 }
 
@@ -200,6 +201,10 @@ impl<'a> Words<'a> {
                 limit,
             }),
             5 => Some(ElementError::Shrunk { determinant: value }),
+            6 => Some(ElementError::Refused {
+                point,
+                determinant: value,
+            }),
             _ => Some(ElementError::Unsettled),
         }
     }
@@ -232,6 +237,7 @@ mod tests {
         let faults = [
             element(ElementError::Degenerate { point, determinant }),
             element(ElementError::Inverted { point, determinant }),
+            element(ElementError::Refused { point, determinant }),
             element(ElementError::Overstretched {
                 point,
                 strain,
