@@ -106,6 +106,20 @@ def test_an_exception_in_a_material_ends_the_run() -> None:
             dragged(material)
 
 
+def test_a_material_without_a_response_is_named() -> None:
+    """Pressed too far, whatever the increment."""
+
+    judged = []
+
+    def limited(F: Any) -> Optional[tuple[float, Any, Any]]:
+        return None if judged and F[2, 2] < 0.985 else neo_hookean(F)
+
+    material = st.OwnMaterial(limited)
+    judged.append(True)
+    with pytest.raises(st.RunStopped, match="no response to its deformation: det F = "):
+        dragged(material)
+
+
 def test_materials_are_judged_before_a_run() -> None:
     def wrong(F: Any) -> tuple[float, Any, Any]:
         energy, stress, tangent = neo_hookean(F)
