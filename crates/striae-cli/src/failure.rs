@@ -216,7 +216,9 @@ impl Failure {
                 | ReportError::Name { .. }
                 | ReportError::View,
             )
-            | Self::Results(OutputError::Occupied(_) | OutputError::InUse(_))
+            | Self::Results(
+                OutputError::Occupied(_) | OutputError::InUse(_) | OutputError::GoneOn(_),
+            )
             | Self::Impossible(_)
             | Self::Variation(_)
             | Self::UnknownCase { .. } => ExitCode::from(IMPOSSIBLE),

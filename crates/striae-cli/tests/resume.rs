@@ -334,11 +334,16 @@ fn what_cannot_be_gone_on_with_is_refused() {
     refused(file, &bytes, "block-00000.vtu is damaged");
     let nowhere = striae(place, &["resume", "nowhere"]);
     assert_eq!(nowhere.status.code(), Some(2));
-    assert!(stderr(&nowhere).contains("nowhere has no checkpoint.bin: a run writes one"));
+    assert!(stderr(&nowhere).contains("there is no folder nowhere"));
+    fs::create_dir(place.join("empty")).unwrap();
+    let empty = striae(place, &["resume", "empty"]);
+    assert_eq!(empty.status.code(), Some(2));
+    let words = "empty has no checkpoint.bin: the run of a deck writes one every few increments";
+    assert!(stderr(&empty).contains(words), "{}", stderr(&empty));
     fs::create_dir_all(place.join("early/fields")).unwrap();
     let early = striae(place, &["resume", "early"]);
     assert_eq!(early.status.code(), Some(2));
-    let words = "the run ended before its first checkpoint; run its deck again, with `--overwrite`";
+    let words = "the run has not come to its first checkpoint, or writes none";
     assert!(stderr(&early).contains(words), "{}", stderr(&early));
     // A comment changes nothing that is run.
     fs::write(place.join("cube.toml"), format!("# again\n{DECK}")).unwrap();

@@ -35,6 +35,9 @@ pub enum OutputError {
     /// Another run writes to the folder.
     #[error("{} is still being written by another run; wait for its end, or stop it", .0.display())]
     InUse(PathBuf),
+    /// A run has gone on since its checkpoint was read.
+    #[error("{} has been written to since its checkpoint was read; resume the run again if it has not completed", .0.display())]
+    GoneOn(PathBuf),
     /// An array has not one value for every point or cell.
     #[error("{}: array `{array}` has {found} values where {expected} are needed", path.display())]
     ArrayLength {

@@ -35,7 +35,7 @@ use striae_solve::{
 
 use crate::{
     FieldOutput, Output, OutputError,
-    checkpoint::Written,
+    checkpoint::{Index, Written},
     checksums::{Checksums, check, sum},
     collections::{Collections, Contact},
     folder::{Claim, Existing, remove_fields},
@@ -152,6 +152,10 @@ impl Recorder {
         written: &Written,
     ) -> Result<Self, OutputError> {
         let claim = on_first(share, || Claim::awaited(folder))?;
+        on_first(share, || match Index::read(folder) {
+            Ok(index) if index.written().iterations == written.iterations => Ok(()),
+            _ => Err(OutputError::GoneOn(folder.to_owned())),
+        })?;
         on_first(share, || check(folder, &written.sums))?;
         let fields = written.sums.iter();
         let fields = fields.filter(|(name, _)| !TABLES.contains(&name.as_str()));

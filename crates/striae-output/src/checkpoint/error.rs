@@ -10,16 +10,22 @@ use crate::OutputError;
 pub enum CheckpointError {
     /// There is no checkpoint.
     #[error(
-        "{} has no {FILE}: a run writes one every few increments and when it is interrupted, and removes it when it completes",
+        "{} has no {FILE}: the run of a deck writes one every few increments and when it is interrupted, and removes it when it completes; runs with derivatives, and of models that are no decks, write none",
         folder.display()
     )]
     Missing {
         /// Folder that was searched.
         folder: PathBuf,
     },
+    /// There is no such folder.
+    #[error("there is no folder {}; the results of a run are in results/NAME, or where `--out` says", folder.display())]
+    NoFolder {
+        /// The folder.
+        folder: PathBuf,
+    },
     /// The run was ended before it wrote a checkpoint.
     #[error(
-        "{} has no {FILE}: the run ended before its first checkpoint; run its deck again, with `--overwrite`",
+        "{} has no {FILE}: the run has not come to its first checkpoint, or writes none (`checkpoint_every = 0`, derivatives); if it has ended, run its deck again, with `--overwrite`",
         folder.display()
     )]
     TooEarly {

@@ -47,6 +47,7 @@ impl Index {
                 let folder = folder.to_owned();
                 Err(match has(END) {
                     true => CheckpointError::Completed { folder },
+                    false if !folder.exists() => CheckpointError::NoFolder { folder },
                     // A run begins with a folder of fields, and has a summary at its end.
                     false if has("fields") && !has("summary.json") => {
                         CheckpointError::TooEarly { folder }

@@ -151,6 +151,7 @@ impl Ends<'_> {
             let found = before.internal[node]
                 - before.applied[node]
                 - before.contact[node]
+                - before.ties[node]
                 - before.stabilisation[node];
             let reaction = self.context.prescribed_part(node, &after.reaction[node]);
             self.held(found, reaction)

@@ -263,3 +263,21 @@ fn checkpoints_come_when_they_are_due_and_go_when_the_run_is_done() {
     assert_eq!(run.unwrap().ending, Ending::Completed);
     assert!(Checkpoint::read(place.path()).is_err());
 }
+
+/// Two resume one run: the one that comes second does not repeat what the first has completed.
+#[test]
+fn a_run_that_has_gone_on_since_its_checkpoint_was_read_is_left_alone() {
+    let place = tempfile::tempdir().unwrap();
+    let (deck, folder) = (read(QUASI_STATIC), place.path());
+    begun(&deck, folder).until(&at_once()).run().unwrap();
+    let resumed = || {
+        let checkpoint = Checkpoint::read(folder).unwrap();
+        Simulation::resume_from(deck.clone(), checkpoint, folder).unwrap()
+    };
+    let (first, second) = (resumed(), resumed());
+    first.run().unwrap();
+    let before = files(folder);
+    let refused = second.run().unwrap_err().to_string();
+    assert!(refused.contains("has been written to since"), "{refused}");
+    assert!(files(folder) == before);
+}

@@ -1,6 +1,9 @@
 //! Tied faces with prescribed displacements.
 
+use std::path::Path;
+
 use striae::{
+    deck,
     model::{FaultKind, ModelBuilder, StepBuilder},
     prelude::*,
     solve::tie::TieFault,
@@ -84,4 +87,47 @@ fn areas_that_neither_side_can_tie_are_refused() {
     let lost = matches!(fault, TieFault::Prescribed { axis: "x", share, .. } if *share > 0.1);
     assert!(lost, "{fault}");
     assert!(fault.to_string().contains("along x"), "{fault}");
+}
+
+const STAMP: &str = r#"
+title = "A tie beside a stamp"
+[[material]]
+name = "rubber"
+law = "neo-hookean"
+youngs_modulus = 100
+poissons_ratio = 0.3
+[[body]]
+name = "left"
+material = "rubber"
+mesh = { generator = "block", size = [1, 1, 0.5], divisions = [4, 4, 2] }
+[[body]]
+name = "right"
+material = "rubber"
+mesh = { generator = "block", origin = [1, 0, 0], size = [1, 1, 0.5], divisions = [2, 2, 2] }
+[[rigid]]
+name = "stamp"
+reference = [1.5, 0.5, 0.5]
+tied = [{ body = "right", nodes = "zmax" }]
+[[tie]]
+name = "side"
+a = { body = "left", facets = "xmax" }
+b = { body = "right", facets = "xmin" }
+[[step]]
+name = "push"
+increments = 5
+displacement = [{ body = "left", nodes = "xmin", x = 0, y = 0, z = 0 }]
+rigid = [{ surface = "stamp", displacement = [0.05, 0.02, 0], rotation = [0, 2, 0] }]
+"#;
+
+/// Nodes that the other side of a tie follows may be tied to a rigid body: what moves the body is
+/// the whole work.
+#[test]
+fn a_rigid_body_beside_a_tie_does_the_work_that_is_stored() {
+    let deck = deck::parse(STAMP, "deck", Path::new("")).unwrap_or_else(|f| panic!("{f}"));
+    let run = Simulation::of(deck).unwrap().run().unwrap();
+    assert_eq!(run.ending, Ending::Completed);
+    let energies = &run.state.energies;
+    let work = energies.external;
+    assert!(energies.imbalance().abs() < 1e-6 * work, "{energies:?}");
+    assert!(energies.numerical.abs() < 0.01 * work, "{energies:?}");
 }
