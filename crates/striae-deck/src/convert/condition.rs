@@ -104,6 +104,16 @@ impl<'a> Model<'a> {
                         self.list(row.line, what);
                         continue;
                     };
+                    if is_velocity && value != 0.0 && history.is_lost(&key, &self.bodies) {
+                        let what = format!(
+                            "*BOUNDARY of `{word}`: it was free before, so this velocity has no start; state the displacement that it leads to"
+                        );
+                        self.list(row.line, what);
+                        continue;
+                    }
+                    if is_velocity && value != 0.0 {
+                        stated_so_far.moving.insert(key.clone(), row.line);
+                    }
                     let found = match is_velocity {
                         true => self.travel(amplitude, period, [present, value]),
                         false => self.approach(amplitude, period, Over::Step, [present, value]),

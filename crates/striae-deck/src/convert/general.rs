@@ -114,6 +114,12 @@ impl<'a> Model<'a> {
                 continue;
             }
             let interaction = self.interaction(Some(word(2)), row.line);
+            if interaction.is_anisotropic {
+                let what = format!(
+                    "*CONTACT PROPERTY ASSIGNMENT `{words}` with anisotropic friction: state the texture of a surface in `[[contact.surface]]`"
+                );
+                self.list(row.line, what);
+            }
             match (self.label(a), self.label(b)) {
                 (Ok(a), Ok(b)) => {
                     let friction = interaction.friction.as_deref();

@@ -245,6 +245,15 @@ impl<'a> Model<'a> {
                 stated.raw_loads.insert(loaded.clone(), none);
             }
         }
+        for (loaded, of) in &mut stated.raw_loads {
+            let present = history.loads.get(loaded).map_or([0.0; 3], |(_, of)| *of);
+            if stated.new_loads.contains(&of.family) {
+                let components = of.components.iter_mut().zip(present);
+                let ended =
+                    components.filter(|(stated, present)| stated.is_none() && *present != 0.0);
+                ended.for_each(|(stated, _)| *stated = Some(0.0));
+            }
+        }
         self.end_replaced(history, stated, period);
         for (loaded, of) in std::mem::take(&mut stated.raw_loads) {
             let present = history.loads.get(&loaded).map_or([0.0; 3], |(_, of)| *of);

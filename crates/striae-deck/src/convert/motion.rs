@@ -38,6 +38,7 @@ impl Model<'_> {
             let key = (Target::Rigid(at), component);
             if ended.contains(&key) {
                 rigid.held[component] = false;
+                (rigid.targets[component], targets[component]) = (0.0, 0.0);
                 is_freed = true;
             }
             let Some(Prescribed {
@@ -50,8 +51,10 @@ impl Model<'_> {
                 rests |= rigid.held[component] && targets[component] != 0.0;
                 continue;
             };
+            // What was free may be anywhere.
+            let was_free = !is_first && !rigid.held[component];
             rigid.held[component] = true;
-            if rigid.targets[component] != *target || curve.is_some() {
+            if was_free || rigid.targets[component] != *target || curve.is_some() {
                 is_moved[component / 3] = true;
                 courses.push((curve, *line));
             } else {

@@ -24,6 +24,8 @@ pub(super) type Component = (Target, usize);
 pub(super) struct History {
     pub(super) prescribed: BTreeMap<Component, f64>,
     pub(super) loads: BTreeMap<Loaded, (Family, [f64; 3])>,
+    /// Components that move at a velocity at the end of the last step, with the line that states it.
+    pub(super) moving: BTreeMap<Component, usize>,
     /// Number of the last step that states a prescribed component, and of steps.
     stated_in: BTreeMap<Component, usize>,
     steps: usize,
@@ -75,6 +77,17 @@ impl History {
         values.all(|value| *value == first).then_some(first)
     }
 
+    /// Returns whether the value of a component is not known: it was free in a step.
+    pub(super) fn is_lost(&self, key: &Component, bodies: &[Body]) -> bool {
+        let (Target::Nodes(body, set), component) = key else {
+            return self.steps > 0 && !self.prescribed.contains_key(key);
+        };
+        let known = by_node(self.prescribed.keys().map(|key| (key, ())), bodies);
+        let nodes = bodies[*body].nodes(set).into_iter();
+        let mut all = nodes.map(|node| (*body, node, *component));
+        self.steps > 0 && all.any(|node| !known.contains_key(&node))
+    }
+
     /// Goes on to the end of a step, in which components have ended or been replaced.
     pub(super) fn advance(&mut self, stated: Stated, past: &BTreeSet<Component>) {
         self.by_node.take();
@@ -83,6 +96,7 @@ impl History {
         for key in stated.prescribed.keys() {
             self.stated_in.insert(key.clone(), self.steps);
         }
+        self.moving = stated.moving;
         let targets = stated.prescribed.into_iter();
         self.prescribed
             .extend(targets.map(|(key, of)| (key, of.reached)));
@@ -104,6 +118,8 @@ pub(super) struct Prescribed {
 #[derive(Default)]
 pub(super) struct Stated {
     pub(super) prescribed: BTreeMap<Component, Prescribed>,
+    /// Components that move at a velocity other than zero, with the line that states it.
+    pub(super) moving: BTreeMap<Component, usize>,
     /// Axes of node sets that have their own, by body.
     pub(super) axes: BTreeMap<(usize, String), String>,
     /// `true` if conditions that are not stated again end.

@@ -102,6 +102,11 @@ impl<'a> Model<'a> {
         let mut stated = Stated::default();
         let before = initial.unwrap_or_default();
         for (keywords, period) in [(before, at_rest), (within, procedure.period)] {
+            let mut own = keywords.iter();
+            if own.any(|keyword| keyword.name == "BOUNDARY" && has(keyword, "OP", "NEW")) {
+                // Of those that stand before all steps only what is stated again stays.
+                stated.prescribed.clear();
+            }
             for &keyword in keywords {
                 match keyword.name.as_str() {
                     "BOUNDARY" => self.boundary(keyword, period, history, &mut stated),
@@ -127,6 +132,12 @@ impl<'a> Model<'a> {
         }
         self.steps += &table;
         ended.extend(replaced);
+        for (key, line) in std::mem::take(&mut history.moving) {
+            if !stated.prescribed.contains_key(&key) && !ended.contains(&key) {
+                let what = "*BOUNDARY, TYPE=VELOCITY beyond the end of its step: state it in later steps, too";
+                self.list(line, what);
+            }
+        }
         history.advance(stated, &ended);
         Some(procedure.period.duration)
     }

@@ -219,3 +219,75 @@ fn conditions_go_on_from_those_of_the_same_nodes_in_other_sets() {
     assert_listed(&listed, &[]);
     assert!(deck.model.steps[1].releases.is_empty(), "{text}");
 }
+
+/// The deck of steps that move a point to which the top of the pad is coupled.
+fn of_point(steps: &str) -> (String, Vec<String>) {
+    let coupling = "*COUPLING, CONSTRAINT NAME=c, REF NODE=RP, SURFACE=Pad-1.Top\n*KINEMATIC\n";
+    let held = "*BOUNDARY\nBase-1.Low, 1, 3\n";
+    let (_, made) = made(&model(coupling, &format!("{held}{steps}")));
+    (made.deck, made.listed)
+}
+
+fn step_of(conditions: &str) -> String {
+    format!("*STEP, NLGEOM=YES\n*STATIC\n0.5, 1.\n{conditions}*END STEP\n")
+}
+
+#[test]
+fn coordinates_that_were_free_go_to_zero() {
+    let pushed = step_of("*BOUNDARY\nRP, 2, 6\n*CLOAD\nRP, 1, 0.6\n");
+    let (deck, listed) = of_point(&(pushed.clone() + &step_of("*BOUNDARY\nRP, 1, 1, 0.\n")));
+    assert_listed(&listed, &[]);
+    let (_, last) = deck.rsplit_once("[[step]]").unwrap();
+    assert!(last.contains("displacement = [0.0, 0.0, 0.0] }"), "{last}");
+    let velocity = step_of("*BOUNDARY, TYPE=VELOCITY\nRP, 1, 1, 0.2\n");
+    let (_, listed) = of_point(&(pushed + &velocity));
+    assert_listed(&listed, &["*BOUNDARY of `RP`: it was free before"]);
+}
+
+#[test]
+fn coordinates_that_are_freed_have_no_target() {
+    let moved = step_of("*BOUNDARY\nRP, 1, 1, 0.02\nRP, 2, 6\n");
+    let freed =
+        step_of("*BOUNDARY, OP=NEW\nBase-1.Low, 1, 3\nRP, 3, 3, -0.05\nRP, 2, 2\nRP, 4, 6\n");
+    let (deck, listed) = of_point(&(moved + &freed));
+    assert_listed(&listed, &[]);
+    let said = "displacement = [0.0, 0.0, -0.05], free = [\"x\"]";
+    assert!(deck.contains(said), "{deck}");
+}
+
+#[test]
+fn conditions_before_all_steps_end_with_those_that_are_new() {
+    let before = "*BOUNDARY\nRP, 1, 6\n";
+    let new = "*BOUNDARY, OP=NEW\nBase-1.Low, 1, 3\n*CLOAD\nRP, 3, -1.\n";
+    let (deck, listed) = of_point(&format!("{before}{}", step_of(new)));
+    assert_listed(&listed, &[]);
+    assert!(deck.contains("free = [\"x\", \"y\", \"z\""), "{deck}");
+}
+
+#[test]
+fn new_loads_end_components_that_are_not_stated_again() {
+    let first = step_of("*CLOAD\nRP, 1, 0.6\nPad-1.Low, 1, 0.3\n");
+    let second = step_of("*CLOAD, OP=NEW\nRP, 2, 0.05\nPad-1.Low, 2, 0.1\n");
+    let (deck, listed) = of_point(&(first + &second));
+    assert_listed(&listed, &[]);
+    let (_, last) = deck.rsplit_once("[[step]]").unwrap();
+    assert!(last.contains("force = [0.0, 0.05, 0.0]"), "{last}");
+    assert!(last.contains("each = [0.0, 0.1, 0.0]"), "{last}");
+}
+
+#[test]
+fn velocities_that_go_on_are_listed() {
+    let moving = "*BOUNDARY, TYPE=VELOCITY\nPad-1.High, 3, 3, -0.01\n";
+    let steps = with(moving).replace("Pad-1.High, 3, 3, -0.02\n", "") + &step_of("");
+    let (_, made) = made(&model("", &steps));
+    assert_listed(
+        &made.listed,
+        &["*BOUNDARY, TYPE=VELOCITY beyond the end of its step"],
+    );
+    let steps = with(moving).replace("Pad-1.High, 3, 3, -0.02\n", "") + &step_of(moving);
+    let (_, listed, deck) = converted(&model("", &steps));
+    assert_listed(&listed, &[]);
+    let last = &deck.model.steps[1].displacements[0];
+    let down = last.numbers()[2].unwrap();
+    assert!((down + 0.03).abs() < 1e-12, "{down}");
+}
