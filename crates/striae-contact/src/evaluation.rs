@@ -56,7 +56,8 @@ pub struct Evaluation {
     /// Hash of the paired facets and of the corners and edges that bound their polygons. Integrals
     /// of contact jump slightly when it changes.
     pub topology: u64,
-    /// Work that friction dissipates at the nodes that slip, `-sum_k w_k tau_k . du_k`.
+    /// Work that friction dissipates at the nodes that slip, `-sum_k w_k tau_k . du_k` with the
+    /// weights that the slips are means over: that of the tractions on the present segments.
     pub dissipated: f64,
     /// Wear of both sides in the increment.
     pub worn: Worn,
@@ -341,8 +342,9 @@ impl Evaluation {
             // one slips at any rate.
             let creeps = conditions.friction.rate_and_state().is_some();
             if result.status == Status::Slip || creeps && result.status == Status::Stick {
-                let slip = &stage.kinematics[k].slip.value;
-                self.dissipated -= stage.selection.weight(k) * result.tau.dot(slip);
+                let kinematics = &stage.kinematics[k];
+                let weight = kinematics.slip_weight(stage.selection.weight(k));
+                self.dissipated -= weight * result.tau.dot(&kinematics.slip.value);
             }
             let texture = self.nodes[side][node].texture;
             self.nodes[side][node] = NodeResult { texture, ..result };

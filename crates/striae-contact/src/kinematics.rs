@@ -57,6 +57,15 @@ pub struct Supported {
 }
 
 impl Kinematics {
+    /// `integral phi_k` over which the slip is a mean: of the present configuration where pressure
+    /// is decided at points, else that at the start of the increment.
+    pub fn slip_weight(&self, start: f64) -> f64 {
+        match &self.pressure {
+            Pressure::AtNode => start,
+            Pressure::AtPoints(supported) => supported.weight.value,
+        }
+    }
+
     /// The pressure that bounds friction at the node, which has the unknown `p`; not positive
     /// where it is open. Where no point is closed the mean is zero up to round-off.
     pub fn bounding_pressure(&self, p: f64) -> f64 {

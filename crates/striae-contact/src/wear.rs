@@ -44,6 +44,8 @@ pub(crate) struct Rate {
     pressure: TrackedScalar,
     /// `q_l`.
     wear: TrackedScalar,
+    /// `w_l` of the present configuration.
+    weight: f64,
 }
 
 /// Rates of all kept nodes, from kinematics without ramps; empty for pairs without wear.
@@ -74,6 +76,7 @@ pub(crate) fn rates(
         let pressure = mean_pressure(kinematics, selection.weight(k), (own, p));
         pressure.map_or_else(Rate::default, |pressure| Rate {
             wear: wear(&pressure, kinematics, across(side, node)),
+            weight: kinematics.slip_weight(selection.weight(k)),
             pressure,
         })
     })
@@ -178,7 +181,7 @@ fn combined(row: &[(u32, f64)], rates: &[Rate]) -> TrackedScalar {
 pub struct Worn {
     /// `dw_J` of all nodes, by side; empty for pairs without wear.
     pub depths: [Vec<f64>; 2],
-    /// Volumes `k_s sum_l w_l q_l`.
+    /// Volumes `k_s sum_l w_l q_l`, with the weights of the present configuration.
     pub volumes: [f64; 2],
 }
 
@@ -188,10 +191,7 @@ impl Worn {
         if rates.is_empty() {
             return Self::default();
         }
-        let weighted = rates.iter().enumerate();
-        let whole: f64 = weighted
-            .map(|(l, rate)| selection.weight(l) * rate.wear.value)
-            .sum();
+        let whole: f64 = rates.iter().map(|rate| rate.weight * rate.wear.value).sum();
         Self {
             depths: Side::BOTH.map(|side| depths(pair, selection, rates, side)),
             volumes: pair.wear.map(|coefficient| coefficient * whole),

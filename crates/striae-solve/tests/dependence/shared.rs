@@ -173,7 +173,7 @@ fn depths_go_on_where_a_surface_comes_into_another_pair() {
         for pair in [0, 1] {
             for (one, two) in of_one.iter().zip(depth(&two, pair)) {
                 assert!(
-                    (one - two).abs() < 0.04 * one,
+                    (one - two).abs() < 0.08 * one,
                     "{divisions:?}: {one}, {two}"
                 );
             }
@@ -184,7 +184,7 @@ fn depths_go_on_where_a_surface_comes_into_another_pair() {
         for side in [0, 1] {
             let [one, two] = [&one, &two].map(|run| volumes(run, side));
             assert!(
-                (two / one - 1.0).abs() < 0.03,
+                (two / one - 1.0).abs() < 1e-2,
                 "{divisions:?}: {one}, {two}"
             );
         }
@@ -207,4 +207,33 @@ fn a_pair_without_wear_meets_what_others_have_worn() {
     let lost = lost / run.positions(0).len() as f64;
     let deepest = right.iter().copied().fold(0.0, f64::max);
     assert!(lost > 0.3 * deepest && lost < deepest, "{lost}, {deepest}");
+}
+
+/// In full slip friction takes its force times the way, and wears off in proportion, however far
+/// contact moves over the facets in an increment.
+#[test]
+fn work_and_worn_volume_are_those_of_the_force_on_its_way() {
+    for (divisions, increments) in DIVISIONS.into_iter().zip([13, 5, 3, 8]) {
+        let mut model = cube(divisions, coulomb(MU));
+        model.pairs[0].wear = [1e-4, 0.0];
+        let size = 1.0 / increments as f64;
+        model.steps[1].increments.initial = size;
+        model.steps[1].increments.largest = size;
+        let run = run(model);
+        let forces = forces(&run);
+        assert_eq!(forces.len(), 1 + increments);
+        for (states, force) in run.states[1..].windows(2).zip(&forces[1..]) {
+            let [before, after] = [&states[0], &states[1]].map(|state| &state.pairs[0]);
+            let way = WAY * size;
+            let work = after.dissipated - before.dissipated;
+            let by_force = force[0] * way;
+            assert!((work / by_force - 1.0).abs() < 1e-3, "{work}, {by_force}");
+            let volume = after.worn[0] - before.worn[0];
+            let expected = 1e-4 * PRESSURE * way;
+            assert!(
+                (volume / expected - 1.0).abs() < 1e-3,
+                "{volume}, {expected}"
+            );
+        }
+    }
 }
