@@ -341,11 +341,21 @@ impl PressureDependence {
                 if mu == 0.0 {
                     return p;
                 }
-                (p * (mu / shear_stress)).tanh() * (shear_stress / mu)
+                tanh(p * (mu / shear_stress)) * (shear_stress / mu)
             }
             Form::Table(table) => table.at(p) * p,
         }
     }
+}
+
+/// The hyperbolic tangent, for arguments of any size: hyperbolic functions overflow, and their
+/// quotients with them.
+fn tanh<D: DualNum<Primitive = f64> + Copy>(x: D) -> D {
+    if x.re() < 0.0 {
+        return -tanh(-x);
+    }
+    let e = (x * -2.0).exp_m1();
+    -e / (e + 2.0)
 }
 
 impl fmt::Display for PressureDependence {

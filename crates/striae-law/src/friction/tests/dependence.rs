@@ -109,6 +109,12 @@ fn bounds_are_those_of_their_formulas() {
         close(bound(&adhesion, p, v)[0], mu * (p + 0.5));
         close(bound(&adhesion, p, v)[1], mu);
         close(bound(&saturation, p, v)[0], 0.4 * (mu * p / 0.4).tanh());
+        let slope = mu / (mu * p / 0.4).cosh().powi(2);
+        assert!((bound(&saturation, p, v)[1] - slope).abs() < 1e-14);
+    }
+    // Far beyond what hyperbolic functions can hold.
+    for p in [1e3, 1e6, 1e200] {
+        assert_eq!(bound(&saturation, p, v)[..2], [0.4, 0.0]);
     }
     let with = |dependence| Friction::coulomb(mu).unwrap().with_rate(dependence);
     let stribeck = with(decay(0.6, 0.5, 2.0, 0.2));
