@@ -69,7 +69,7 @@ pub enum CutBack {
     },
     /// A convected texture has no direction left at a node.
     #[error(
-        "pair `{pair}`: the texture at {node} of body `{body}`, or opposite to it, has no tangential part any more"
+        "pair `{pair}`: the texture at {node} of body `{body}`, or opposite to it, has no direction: it has no tangential part any more, or directions around the node cancel, as in a facet with the axis of a radial texture; change the axis or the mesh there"
     )]
     CollapsedTexture {
         /// Name of the pair.

@@ -25,6 +25,10 @@ use crate::{
     transported::Transported,
 };
 
+/// Length of a mean of unit vectors up to which it is round-off, as in the middle of a facet around
+/// which they point away from it.
+const ROUND_OFF: f64 = 1e-9;
+
 /// The opposing `a_b'` at a node.
 pub(super) fn opposite(
     configuration: &Configuration,
@@ -118,6 +122,13 @@ fn on_rigid(
         let turned = transported(&constant3(&a.value), &constant3(&n_j), &normal);
         sum -= scaled(&turned, weights[corner]);
     }
+    let length = sum.map(|component| component.re).norm();
+    if length <= ROUND_OFF {
+        return Err(CollapsedTexture {
+            side: Side::A,
+            node,
+        });
+    }
     Ok(tracked(&lanes, &normalised(&sum)))
 }
 
@@ -167,6 +178,9 @@ fn on_deformable(
     });
     let sum = place.sum(&turned);
     let length = sum.norm();
+    if length <= ROUND_OFF {
+        return Err(CollapsedTexture { side, node });
+    }
     let value = sum / length;
     let across = (Matrix3::identity() - value * value.transpose()) / length;
     let mut gradient = [[0.0; 3]; 43];
