@@ -207,6 +207,13 @@ displacement = [
         told.contains("line 4: `much` is no finite number for column `2`"),
         "{told}"
     );
+    let twice = csv.replace("u [mm]", "t [s]");
+    std::fs::write(folder.path().join("way.csv"), twice).unwrap();
+    let told = read(&deck).unwrap_err().to_string();
+    assert!(
+        told.contains("line 2: several columns are named `t [s]`; state the number of one"),
+        "{told}"
+    );
     std::fs::write(folder.path().join("way.csv"), csv.replace("2,5", "2;5")).unwrap();
     let told = read(&deck).unwrap_err().to_string();
     assert!(

@@ -45,7 +45,8 @@ fn announced_length(bytes: &[u8]) -> Option<u64> {
 }
 
 fn is_ascii(bytes: &[u8]) -> bool {
-    bytes.trim_ascii_start().starts_with(b"solid") && !bytes.contains(&0)
+    let start = bytes.trim_ascii_start().first_chunk::<5>();
+    start.is_some_and(|word| word.eq_ignore_ascii_case(b"solid")) && !bytes.contains(&0)
 }
 
 fn binary(bytes: &[u8]) -> Result<Vec<[Vec3; 3]>, MeshFileFault> {
@@ -74,7 +75,8 @@ fn finite(place: Place, x: &Vec3) -> Result<(), MeshFileFault> {
 }
 
 fn ascii(text: &str) -> Result<Vec<[Vec3; 3]>, MeshFileFault> {
-    let mut lines = Lines::new(text);
+    let text = text.to_ascii_lowercase();
+    let mut lines = Lines::new(&text);
     let mut triangles = Vec::new();
     while let Some(line) = lines.next() {
         match line.text.split_whitespace().next() {

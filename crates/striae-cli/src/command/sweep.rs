@@ -125,6 +125,7 @@ fn tell(member: &Member, outcome: &Outcome, outcomes: &[Outcome]) {
     let how = match outcome {
         Outcome::Waiting => return,
         Outcome::Done => "completed",
+        Outcome::Failed { .. } if outcome.is_interrupted() => "interrupted",
         Outcome::Failed { .. } => "failed",
     };
     let line = format!("{ended} of {all}: {} {how}", member.name());

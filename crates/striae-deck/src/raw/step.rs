@@ -48,7 +48,7 @@ table! {
     CourseFile {
         /// The file, relative to the deck.
         required file: Text,
-        /// Names of the columns with times and values, or their numbers from 1.
+        /// Names of the columns with times and values, or their numbers from 1, as texts.
         required columns: [Text; 2],
         /// Lines at the beginning that are passed over. Default: 0.
         optional skip: Whole<0>,

@@ -18,8 +18,10 @@ fn volume(surface: &RigidSurfaceMesh) -> f64 {
 fn stl_triangles_share_their_corners() {
     let mut triangles = cube_triangles();
     triangles.push([Vec3::zeros(), Vec3::zeros(), Vec3::x()]);
+    let ascii = written::stl_ascii(&triangles);
     for bytes in [
-        written::stl_ascii(&triangles),
+        ascii.to_ascii_uppercase(),
+        ascii,
         written::stl_binary(&triangles),
     ] {
         let surface = rigid_surface(&bytes).unwrap();

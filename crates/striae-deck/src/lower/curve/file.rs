@@ -45,6 +45,12 @@ pub(super) fn points(
     }
     let mut fields = [0; 2];
     for (field, column) in fields.iter_mut().zip(columns) {
+        if names.iter().filter(|name| **name == column).count() > 1 {
+            let cause = format!(
+                "several columns are named `{column}`; state the number of one, from 1, as a text"
+            );
+            return Err(fault(Some(number), cause));
+        }
         *field = position(&names, column).ok_or_else(|| {
             let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
             let cause = format!(
