@@ -14,6 +14,8 @@ use crate::failure::Failure;
 
 /// Times over the last one that are the same.
 const SAME: f64 = 1e-9;
+/// What a column is judged by at least, over the largest value of all columns that hold the same.
+const ROUND_OFF: f64 = 1e-9;
 
 /// Compare two runs: their endings and warnings, and their histories at common times.
 #[derive(clap::Args)]
@@ -156,18 +158,27 @@ fn compared(first: &Table, second: &Table) -> (usize, Vec<Difference>) {
     let rows: Vec<(usize, usize)> = rows
         .filter_map(|(at, time)| Some((at, near(*time)?)))
         .collect();
-    let scale = |of: &str| {
-        let same = first.columns.iter().filter(|name| group(name) == of);
+    let largest = |is_meant: &dyn Fn(&str) -> bool| {
+        let same = first.columns.iter().filter(|name| is_meant(name));
         let values = same.flat_map(|name| [first.column(name), second.column(name)]);
         let values = values.flatten().flatten();
         values.fold(0.0, |most: f64, value| most.max(value.abs()))
+    };
+    let scale = |name: &str| {
+        if name.ends_with("mismatch") {
+            // A ratio itself.
+            return 1.0;
+        }
+        let own = largest(&|other| group(other) == group(name));
+        let of_kind = largest(&|other| kind(other) == kind(name));
+        own.max(ROUND_OFF * of_kind)
     };
     let counts = ["step", "increment", "time", "iterations", "cutbacks"];
     let columns = first.columns.iter();
     let columns = columns.filter(|name| !counts.contains(&name.as_str()));
     let differences = columns.filter_map(|name| {
         let [a, b] = [first.column(name)?, second.column(name)?];
-        let scale = scale(group(name));
+        let scale = scale(name);
         let difference = |(i, j): &(usize, usize)| (a[*i] - b[*j]).abs();
         let worst = rows
             .iter()
@@ -198,6 +209,18 @@ fn group(column: &str) -> &str {
     }
 }
 
+/// Columns of all parts of the model that hold the same: `reaction` of `reaction.block.zmin.x`.
+fn kind(column: &str) -> (&str, &str) {
+    let group = group(column);
+    let (first, rest) = group.split_once('.').unwrap_or((group, ""));
+    let last = rest.rsplit_once('.').map_or("", |(_, last)| last);
+    match first {
+        // Names of parts stand at the end.
+        "reaction" | "velocity" => (first, ""),
+        _ => (first, last),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -216,6 +239,23 @@ mod tests {
         let b = table(&columns, &[&[1.0, -3e-15, 2.0]]);
         let (_, differences) = compared(&a, &b);
         assert!(differences.iter().all(|one| one.relative < 1e-14));
+    }
+
+    #[test]
+    fn what_is_round_off_beside_other_parts_is_no_difference() {
+        let columns = [
+            "time",
+            "reaction.a.x",
+            "reaction.b.top.z",
+            "pair.p.mismatch",
+            "pair.p.gap",
+        ];
+        let a = table(&columns, &[&[1.0, 1e-16, 5.0, 1e-16, 1e-5]]);
+        let b = table(&columns, &[&[1.0, -3e-16, 5.0, 3e-16, 2e-5]]);
+        let (_, differences) = compared(&a, &b);
+        let differs = differences.iter().filter(|one| one.relative > 1e-6);
+        let differs: Vec<&str> = differs.map(|one| one.column.as_str()).collect();
+        assert_eq!(differs, ["pair.p.gap"]);
     }
 
     #[test]
