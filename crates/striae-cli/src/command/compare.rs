@@ -14,7 +14,7 @@ use crate::failure::Failure;
 
 /// Times over the last one that are the same.
 const SAME: f64 = 1e-9;
-/// What a column is judged by at least, over the largest value of all columns that hold the same.
+/// Least scale of a column over the largest value of all columns that hold the same.
 const ROUND_OFF: f64 = 1e-9;
 
 /// Compare two runs: their endings and warnings, and their histories at common times.
