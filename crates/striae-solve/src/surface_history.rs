@@ -8,8 +8,8 @@
 //! h_J = sum_i A_iJ h_iJ / sum_i A_iJ,   A_iJ = integral N_J da over what is opposite in pair i
 //! ```
 //!
-//! For slip and states the sum is over the pairs in which the place is in contact: it slips as much
-//! as it does there, whatever else is opposite. For depths it is over all of them, as the mean
+//! For slip and states the sum is over the pairs in which the place is in contact with friction: it
+//! slips as much as it does there, whatever else is opposite. For depths it is over all of them, as the mean
 //! pressure that wears is over all that is opposite.
 
 use std::collections::BTreeSet;
@@ -45,8 +45,11 @@ pub(crate) fn join(problem: &Problem, frictions: &[Friction], pairs: &mut [PairS
         if weighted.is_empty() {
             continue;
         }
-        let touches =
-            |(at, _): &Weighted| pairs[at.pair].nodes[at.side][at.node].status != Status::Open;
+        // Slip is not seen without friction.
+        let touches = |(at, _): &Weighted| {
+            let status = pairs[at.pair].nodes[at.side][at.node].status;
+            status != Status::Open && !frictions[at.pair].is_frictionless()
+        };
         let touching: Vec<Weighted> = weighted.iter().copied().filter(touches).collect();
         let evolves = |(at, _): &Weighted| frictions[at.pair].rate_and_state().is_some();
         let evolving: Vec<Weighted> = touching.iter().copied().filter(evolves).collect();

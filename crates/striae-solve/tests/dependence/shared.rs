@@ -237,3 +237,19 @@ fn work_and_worn_volume_are_those_of_the_force_on_its_way() {
         }
     }
 }
+
+/// A place that touches with friction and without slips as far as it does with friction: in an
+/// increment all of the way or none of it.
+#[test]
+fn pairs_without_friction_count_no_slip() {
+    let mut model = over_two_parts(cube(DIVISIONS[1], coulomb(MU)));
+    model.pairs[1].friction = Friction::frictionless();
+    let run = run(model);
+    let slip = &run.last().pairs[0].tractions.accumulated[Side::A];
+    let way = WAY / COUNT as f64;
+    assert!(slip.iter().any(|slip| *slip > 3.0 * way), "{slip:?}");
+    for slip in slip {
+        let ways = slip / way;
+        assert!((ways - ways.round()).abs() < 1e-2, "{ways}");
+    }
+}
