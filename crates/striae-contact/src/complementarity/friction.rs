@@ -342,7 +342,7 @@ pub(super) fn part(q: &[Q; 2], v: &[Q; 2]) -> Q {
 }
 
 /// No `z` across the unit vector `w`.
-pub(super) fn across(w: &[Q; 2], z: &[Q; 2]) -> TangentialRow {
+fn across(w: &[Q; 2], z: &[Q; 2]) -> TangentialRow {
     let [first, second] = w;
     let across = [Q::combination([(-1.0, second)]), *first];
     traction(part(&across, z))
@@ -350,7 +350,7 @@ pub(super) fn across(w: &[Q; 2], z: &[Q; 2]) -> TangentialRow {
 
 /// `z = radius sign(y) w`: [`slip`] along the unit vector `w`, with its Jacobian that does not
 /// let a node whose slip turns around jump from one side of the slip surface to the other.
-fn along(w: &[Q; 2], z: &[Q; 2], y: &Q, limit: &Q, begins: bool) -> [TangentialRow; 2] {
+pub(super) fn along(w: &[Q; 2], z: &[Q; 2], y: &Q, limit: &Q, begins: bool) -> [TangentialRow; 2] {
     let zw = part(w, z);
     let (sign, radius) = (y.re.signum(), limit.re);
     let m = (1.0 - reduction(zw.re.abs(), zw.re * sign, radius, begins)) * radius / y.re.abs();
@@ -402,7 +402,7 @@ fn damping(length: f64, along: f64, radius: f64) -> f64 {
 }
 
 /// `z = radius y/|y|`.
-fn slip(z: &[Q; 2], y: &[Q; 2], limit: &Q, begins: bool) -> [TangentialRow; 2] {
+pub(super) fn slip(z: &[Q; 2], y: &[Q; 2], limit: &Q, begins: bool) -> [TangentialRow; 2] {
     let zv = Vector2::new(z[0].re, z[1].re);
     let yv = Vector2::new(y[0].re, y[1].re);
     let (length, direction) = polar(yv);
