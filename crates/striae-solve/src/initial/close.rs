@@ -1,6 +1,6 @@
 //! Gaps and overlaps closed without strain: nodes go to the nearest point of the other side.
 
-use std::cmp::Ordering;
+use std::{cmp::Ordering, collections::BTreeMap};
 
 use striae_contact::{initial::signed_gap, interference::Stage, side::Side};
 use striae_mesh::{MeshError, Vec3};
@@ -8,6 +8,9 @@ use striae_surface::node::SurfaceNode;
 
 use super::{InitialFault, Reference};
 use crate::model::{ClosedGaps, Initial, Model, PairId};
+
+/// Square of the part of a direction that others do not cover, below which it is one of theirs.
+const ALIKE: f64 = 1e-2;
 
 /// The model with closed gaps for all pairs that request it, one pair after another.
 ///
@@ -33,8 +36,14 @@ fn close_pair(model: &mut Model, pair: PairId, gaps: ClosedGaps) -> Result<(), I
             continue;
         };
         let mesh = &mut model.bodies[body].mesh;
+        // On an edge between faces several nodes of the surface are one of the mesh.
+        let mut ways: BTreeMap<usize, Vec<Vec3>> = BTreeMap::new();
         for (node, x) in surface.nodes().iter().zip(x) {
-            mesh.positions[node.index()] = x;
+            let way = x - mesh.positions[node.index()];
+            ways.entry(node.index()).or_default().push(way);
+        }
+        for (node, ways) in ways {
+            mesh.positions[node] += joint(&ways);
         }
         if let Err(MeshError::Inverted { element, .. }) = mesh.check_shape() {
             return Err(InitialFault::Inverted {
@@ -45,6 +54,27 @@ fn close_pair(model: &mut Model, pair: PairId, gaps: ClosedGaps) -> Result<(), I
         }
     }
     Ok(())
+}
+
+/// Shortest way that is as long along each of some ways as that is.
+fn joint(ways: &[Vec3]) -> Vec3 {
+    let mut sum = Vec3::zeros();
+    let mut directions: Vec<Vec3> = Vec::new();
+    for way in ways {
+        let length = way.norm();
+        if length == 0.0 {
+            continue;
+        }
+        let along = way / length;
+        let covered = |rest: Vec3, q: &Vec3| rest - q * q.dot(&rest);
+        let new = directions.iter().fold(along, covered);
+        // Of faces that look the same way one leads where the other does.
+        if new.norm_squared() > ALIKE {
+            sum += new * ((length - along.dot(&sum)) / new.norm_squared());
+            directions.push(new.normalize());
+        }
+    }
+    sum
 }
 
 /// Positions of the surface nodes with gaps and overlaps closed.

@@ -1,6 +1,7 @@
 //! Contact of everything: the same from Rust and from a deck, and what advice says of it.
 
 mod beside_pairs;
+mod closed;
 
 use std::path::Path;
 
