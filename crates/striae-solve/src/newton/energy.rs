@@ -6,7 +6,7 @@
 //!
 //! ```text
 //! external  += d . (a f_ext,0 + (1 - a) f_ext,1) + work of reactions and of moving surfaces
-//!            + work of the forces and torques on rigid bodies, du . F + dt . M
+//!            + work of the forces and torques on rigid bodies, du . F + dt . M + m
 //! actuation += dG . (a dW/dG,0 + (1 - a) dW/dG,1), the rates at given positions
 //! inelastic += what viscous and plastic flow dissipate by the laws of the materials
 //! friction  += sum A (-tau_1 . du) over the nodes at which friction is collocated
@@ -16,8 +16,14 @@
 //!            - inelastic
 //!            + dt v . M e + d' . M a_alpha
 //!            - sum (1 - a) (dr - dt x r_1) . h_1 + a (dr - dt x r_0) . h_0 at tied nodes
-//!            - sum (dr - dt x r) . f_con over the nodes that push a moving body
+//!            - sum (dr - dt x r) . f_con over the nodes that push a moving body + m
+//! m          = (1/2 - a_f) d . ((M a_0 + f_int,0 - f_ext,0) - (M a_1 + f_int,1 - f_ext,1))
 //! ```
+//!
+//! Reactions of the equations belong to the time `t_1 - a_f dt`. What moves a mass does work by the
+//! force in the middle of the increment, without which an oscillating support would lose or gain
+//! energy in every period, to first order: `m` over prescribed components, and the like over
+//! prescribed coordinates of rigid bodies, is the difference.
 //!
 //! `f_con` are the contact forces that balance the others: those at the end with inertia, else the
 //! mean. With inertia, `(1/2 - a_f) d . (f_con,1 - f_con,0)` goes from `numerical` to `contact`: by
@@ -94,11 +100,12 @@ impl Ends<'_> {
         let stored = strain - before.strain;
         let actuated = self.actuated();
         let lost = self.internal() - (stored + inelastic) + self.inertia() - self.arcs();
-        let lost = lost + actuated;
+        let moved = self.moved_to_the_middle();
+        let lost = lost + actuated + moved;
         Energies {
             kinetic: kinetic_energy(self.context.problem, self.velocities),
             strain,
-            external: before.external + self.external(),
+            external: before.external + self.external() + moved,
             actuation: before.actuation + actuated,
             inelastic: before.inelastic + inelastic,
             friction: before.friction + friction,
@@ -159,6 +166,38 @@ impl Ends<'_> {
         let driven = |rigid: usize| !self.context.problem.has_coordinates(rigid);
         let surfaces = self.of_surfaces(driven, Way::Whole) + self.resisted(driven);
         applied + reactions + surfaces + self.of_bodies()
+    }
+
+    /// Work of the difference between reactions in the middle of the increment, without contact,
+    /// and those of the equations.
+    fn moved_to_the_middle(&self) -> f64 {
+        let Some(scheme) = self.scheme() else {
+            return 0.0;
+        };
+        let (context, problem) = (self.context, self.context.problem);
+        let (before, after) = (&self.state.forces, &self.assembled.forces);
+        let accelerations = self.state.accelerations.iter().zip(self.accelerations);
+        let jumps: Vec<Vec3> = accelerations.map(|(start, end)| start - end).collect();
+        let inertia = mass_times(problem, &jumps);
+        let on_nodes = self.work(|node| {
+            if problem.tie_of[node].is_some() {
+                return Vec3::zeros();
+            }
+            let [start, end] = [before, after].map(|of| of.internal[node] - of.applied[node]);
+            context.prescribed_part(node, &(inertia[node] + start - end))
+        });
+        let [from, to] = [&self.state.rigid, &self.trial.rigid];
+        let found = wrenches(problem, &self.state.positions, from, &before.reaction);
+        let reached = wrenches(problem, &self.trial.positions, to, &after.reaction);
+        let mut on_bodies = 0.0;
+        for rigid in (0..from.len()).filter(|&rigid| problem.has_coordinates(rigid)) {
+            let [from, to] = [from, to].map(|poses| poses[rigid].coordinates());
+            let [found, reached] = [&found, &reached].map(|of| of[rigid].components());
+            for at in (0..6).filter(|&at| context.fixed_rigid[rigid][at]) {
+                on_bodies += (found[at] - reached[at]) * (to[at] - from[at]);
+            }
+        }
+        (0.5 - scheme.alpha_f) * (on_nodes + on_bodies)
     }
 
     /// Work on the coordinates of rigid bodies: of what drives free ones, and of what

@@ -14,6 +14,7 @@ mod friction_history;
 mod hard_systems;
 mod invariance;
 mod memory;
+mod moved_mass;
 mod passages;
 mod patch_frictionless;
 mod patch_stick;
