@@ -273,7 +273,7 @@ table! {
     Friction {
         /// Law and its constants.
         include law: Stated<striae_law::friction::Friction>,
-        /// Largest shear stress that friction can carry. Default: none.
+        /// Largest value of `mu p`; laws of directions keep their proportions. Default: none.
         optional shear_cap: Positive,
         /// Decay of all coefficients with the rate of slip. Default: none.
         optional decay: Decay,
