@@ -28,6 +28,14 @@
 //! `g - (g_0 - G)`, so that facets touch everywhere at once. That is so only where the surfaces
 //! conform: where `G` changes less over the faces that are seated than the correction `g_0 - G`.
 //! Otherwise the correction would not be that of points that come to face each other later.
+//!
+//! `n_0` belongs to where the facets were at the start. Where curved faces have slid past each other
+//! so far that their normals there differ by the angle `t`, the correction is tilted by `t` over
+//! facets of the size `h`: gaps are off by about `t h/4` ([`slid`]).
+
+mod slid;
+
+pub use slid::{Slid, slid};
 
 use std::sync::Arc;
 

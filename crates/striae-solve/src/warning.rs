@@ -8,12 +8,13 @@
 //!
 //! | kind | value | limit |
 //! | --- | --- | --- |
-//! | `mismatch` | sum of the resultants over the largest force of the pair so far | 1e-6 |
+//! | `mismatch` | sum of the resultants over the largest force of the pair so far, or integral of its pressure | 1e-6 |
 //! | `moment` | sum of the moments over the same and the size of the contact zone | 1e-2 |
 //! | `tension` | tensile nodal pressure over the largest pressure of the pair so far | 1e-6 |
 //! | `penetration` | depth over the size of the smaller facets there, see [`crate::interference`] | 0.1 |
 //! | `passage` | the same for what has passed through, see there | 0 |
 //! | `coarse` | facet size over that which would do for the zone of contact, where the force of the pair is largest, see [`crate::audit`] | 1 |
+//! | `slid-fit` | error of the gaps of faces that interfere and have slid along their curvature over their interference, see [`striae_contact::seating`] | 0.1 |
 //! | `overlap` | the same for bodies inside themselves or others where no pair sees it, over the smaller facet | 0.1 |
 //! | `unfelt` | the same while the pair has no force at all, but at nodes that another pair presses | 0.02 |
 //! | `creation` | negative friction work over the largest energy | 1e-6 |
@@ -21,6 +22,7 @@
 //! | `contact` | energy that contact has made, beyond friction, over the largest external work or work of actuation | 0.1 |
 //! | `imbalance` | energy found nowhere over the largest energy | 1e-3 |
 //! | `integration` | energy that the time integration has made over the largest energy | 0.1 |
+//! | `snap` | strain energy that an increment of a quasi-static step gains without work over the largest energy | 0.5 |
 //! | `residual` | residual of an increment that was accepted above the tolerance, where the integrals of contact jump | - |
 //! | `stabilisation` | work lost to [stabilisation](crate::stabilisation) in a step over its external work, work of actuation or change of strain energy, whichever is largest | 0.01 |
 //! | `rotation` | largest angle, in radians, by which elements of linear elastic bodies turn | 0.1 |
@@ -45,7 +47,7 @@ use striae_surface::node::SurfaceNode;
 
 use crate::{
     audit::{Doubt, LEAST_SHARE, coarse, doubts},
-    initial::{fits, may_meet, meant_depth, other_name},
+    initial::{fits, may_meet, meant_depth, other_name, slid_fit},
     interference::{Positions, between, beyond, within},
     model::{Initial, Model, PairId, Procedure},
     newton::{Acceptance, InStep, Increment, Reach},
@@ -93,6 +95,8 @@ pub enum Kind {
     Unfelt,
     /// Facets are too coarse for the zone of contact.
     Coarse,
+    /// Faces that interfere have slid too far along their curvature.
+    SlidFit,
     /// Bodies are inside themselves or others where no pair sees it.
     Overlap,
     /// Bodies have passed through each other.
@@ -107,6 +111,8 @@ pub enum Kind {
     Imbalance,
     /// The time integration makes energy.
     Integration,
+    /// An increment has gained strain energy without work.
+    Snap,
     /// An increment was accepted above the tolerance.
     Residual,
     /// Much of the work of a step is lost to stabilisation.
@@ -125,13 +131,14 @@ pub enum Kind {
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Self; 20] = [
+    pub const ALL: [Self; 22] = [
         Self::Mismatch,
         Self::Moment,
         Self::Tension,
         Self::Penetration,
         Self::Unfelt,
         Self::Coarse,
+        Self::SlidFit,
         Self::Overlap,
         Self::Passage,
         Self::Creation,
@@ -139,6 +146,7 @@ impl Kind {
         Self::Contact,
         Self::Imbalance,
         Self::Integration,
+        Self::Snap,
         Self::Residual,
         Self::Stabilisation,
         Self::Rotation,
@@ -157,6 +165,7 @@ impl Kind {
             Self::Penetration => "penetration",
             Self::Unfelt => "unfelt",
             Self::Coarse => "coarse",
+            Self::SlidFit => "slid-fit",
             Self::Overlap => "overlap",
             Self::Passage => "passage",
             Self::Creation => "creation",
@@ -164,6 +173,7 @@ impl Kind {
             Self::Contact => "contact",
             Self::Imbalance => "imbalance",
             Self::Integration => "integration",
+            Self::Snap => "snap",
             Self::Residual => "residual",
             Self::Stabilisation => "stabilisation",
             Self::Rotation => "rotation",
@@ -183,7 +193,9 @@ impl Kind {
             Self::Unfelt => UNFELT,
             Self::Gain => LEAST_SHARE,
             Self::Coarse => 1.0,
-            Self::Rotation | Self::Contact | Self::Integration => 0.1,
+            Self::Rotation | Self::Contact | Self::Integration | Self::SlidFit => 0.1,
+            // A force that rises with the way does at least half of the work of its last value.
+            Self::Snap => 0.5,
             Self::Imbalance => 1e-3,
             Self::Residual | Self::Passage | Self::NeverTouched | Self::NeverMeets => 0.0,
         }
@@ -280,10 +292,14 @@ impl Judgement {
         let imbalance = energies.imbalance().abs();
         self.note(Kind::Imbalance, None, imbalance, after.time);
         let step = problem.model.steps.get(in_step.step);
-        if step.is_some_and(|step| step.procedure != Procedure::QuasiStatic) {
+        let made = before.energies.numerical - energies.numerical;
+        match step.is_some_and(|step| step.procedure == Procedure::QuasiStatic) {
             // Increments of a quasi-static step lose and gain by their finite size alone.
-            self.integrated += before.energies.numerical - energies.numerical;
-            self.note(Kind::Integration, None, self.integrated, after.time);
+            true => self.note(Kind::Snap, None, made, after.time),
+            false => {
+                self.integrated += made;
+                self.note(Kind::Integration, None, self.integrated, after.time);
+            }
         }
         if in_step.reach == Reach::End {
             self.stabilisation(after);
@@ -293,6 +309,7 @@ impl Judgement {
         for (pair, report) in reports.iter().enumerate() {
             self.pair(problem, pair, report, [before, after]);
             self.passage(pair, &interferences[pair], after.time);
+            self.slid_fit(problem, pair, after);
             self.penetration(problem, pair, (after, in_step), report.max_pressure);
         }
         for overlap in overlaps {
@@ -343,11 +360,7 @@ impl Judgement {
         report: &PairReport,
         [before, after]: [&State; 2],
     ) {
-        let force = report
-            .sides
-            .iter()
-            .map(|side| side.force.norm())
-            .fold(0.0, f64::max);
+        let force = report.load;
         if force > self.forces[pair] {
             self.coarse(problem, pair, after);
         }
@@ -381,6 +394,20 @@ impl Judgement {
                 node: Some((found.body, found.node)),
                 value: found.size / found.enough,
                 size: found.size,
+                time: after.time,
+            });
+        }
+    }
+
+    /// Judges faces that interfere by how far they have slid.
+    fn slid_fit(&mut self, problem: &Problem, pair: usize, after: &State) {
+        if let Some((slid, interference)) = slid_fit(problem, pair, after) {
+            self.note_at(Worst {
+                kind: Kind::SlidFit,
+                pair: Some(pair),
+                node: None,
+                value: over(slid.error, interference),
+                size: slid.turned,
                 time: after.time,
             });
         }
@@ -507,7 +534,9 @@ impl Judgement {
     fn relative(&self, worst: &Worst) -> Worst {
         let value = match worst.kind {
             Kind::Contact => over(worst.value, self.external),
-            Kind::Creation | Kind::Imbalance | Kind::Integration => over(worst.value, self.energy),
+            Kind::Creation | Kind::Imbalance | Kind::Integration | Kind::Snap => {
+                over(worst.value, self.energy)
+            }
             _ => worst.value,
         };
         Worst { value, ..*worst }
@@ -683,6 +712,14 @@ fn warning(problem: &Problem, worst: &Worst) -> Warning {
         }
         Kind::Integration => format!(
             "the time integration has created energy up to time {time:.4}, of {percent:.0} % of the largest energy: take a smaller `spectral_radius`, or smaller increments"
+        ),
+        Kind::SlidFit => format!(
+            "the faces of pair `{name}` have slid along their curvature by {:.1} degrees at time {time:.4}: the gaps of their facets, which are known for where they were at the start, are off by {percent:.0} % of the interference, and pressures with them; facets {:.0} times smaller would do",
+            worst.size.to_degrees(),
+            (value / kind.limit()).ceil()
+        ),
+        Kind::Snap => format!(
+            "the increment to time {time:.4} has gained strain energy without work, {percent:.0} % of the largest energy: it may have jumped to another equilibrium, with elements folded; look at the deformed mesh there, and take smaller increments"
         ),
         Kind::Residual => format!(
             "the increment to time {time:.4} was accepted with a residual of {value:.1e}, above the tolerance of {:.1e}: corners of facets lie so close to opposing edges that the integrals of contact jump by as much",
