@@ -27,7 +27,7 @@ use num_dual::{Dual64, DualSVec64};
 use striae_law::friction::{Creep, Past, RateAndState};
 
 use super::{
-    friction::{TangentialRow, along, part, slip, traction},
+    friction::{Radius, TangentialRow, along, part, slip, traction},
     mobility::Mobility,
     node::Bound,
     state::{NodeState, Q, TRACTION},
@@ -165,7 +165,7 @@ impl Creeping<'_> {
     }
 
     /// The slip rate, and `Z` for a length `|y|` and a direction.
-    fn shared(&self, length: &Q, direction: &[Q; 2], r: &Q) -> (f64, Q) {
+    fn shared(&self, length: &Q, direction: &[Q; 2], r: &Q) -> (f64, Radius) {
         let reach = self.state.reach(direction);
         let kappa_inverse = self.over_slip(direction);
         let mut stiffness = Q::product(r, &kappa_inverse);
@@ -182,15 +182,12 @@ impl Creeping<'_> {
             by_reach,
             by_stiffness,
         } = found;
-        let mut of_length = Q::combination([
-            (by_length, length),
-            (by_reach, &reach),
-            (by_stiffness, &stiffness),
-        ]);
-        of_length.slope[self.state.pressure_lane()] += self.by_pressure * by_pressure;
-        let radius = Q {
-            re: radius,
-            ..of_length
+        let mut at_length = Q::combination([(by_reach, &reach), (by_stiffness, &stiffness)]);
+        at_length.slope[self.state.pressure_lane()] += self.by_pressure * by_pressure;
+        at_length.re = radius;
+        let radius = Radius {
+            at_length,
+            by_length,
         };
         (slip_rate, radius)
     }
