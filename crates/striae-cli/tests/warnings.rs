@@ -121,3 +121,64 @@ fn overlaps_and_normals_that_point_away_are_faults_with_a_remedy() {
         );
     }
 }
+
+/// A shaft that is pressed into a hub, then turned in it by an angle in degrees.
+fn fit(turned: f64) -> String {
+    format!(
+        r#"
+title = "A shaft that turns in a hub"
+
+[[material]]
+name = "steel"
+law = "neo-hookean"
+youngs_modulus = 1e9
+poissons_ratio = 0.3
+
+[[body]]
+name = "hub"
+material = "steel"
+mesh = {{ generator = "annulus", axis = [0, 0, 1], inner_radius = 0.5, outer_radius = 1, width = 0.1, divisions = [2, 40, 1] }}
+
+[[body]]
+name = "shaft"
+material = "steel"
+mesh = {{ generator = "cylinder", base = [0, 0, -0.05], radius = 0.5, height = 0.1, divisions = [4, 3, 1] }}
+node_sets = [{{ name = "core", cylinder = {{ point = [0, 0, 0], axis = [0, 0, 1], radius = 0.3 }} }}]
+
+[[rigid]]
+name = "core"
+tied = [{{ body = "shaft", nodes = "core" }}]
+
+[[rigid]]
+name = "ring"
+tied = [{{ body = "hub", nodes = "tread" }}]
+
+[[pair]]
+name = "fit"
+a = {{ body = "hub", facets = "rim" }}
+b = {{ body = "shaft", facets = "side" }}
+interference = 0.0005
+
+[[step]]
+name = "fit"
+increments = 1
+
+[[step]]
+name = "turn"
+increments = 2
+rigid = [{{ surface = "core", rotation = [0, 0, {turned}] }}]
+"#
+    )
+}
+
+#[test]
+fn a_press_fit_that_turns_leaves_the_places_where_its_gaps_are_known() {
+    for (turned, kinds) in [(0.05, vec![]), (2.0, vec!["slid-fit"])] {
+        let folder = tempfile::tempdir().unwrap();
+        let run = striae(folder.path(), &fit(turned), &RUN);
+        assert_eq!(run.status.code(), Some(0), "{}", stderr(&run));
+        let found = warnings(folder.path());
+        let found: Vec<&str> = found.iter().map(|warning| &*warning.kind).collect();
+        assert_eq!(found, kinds, "{}", stderr(&run));
+    }
+}

@@ -139,6 +139,22 @@ fn a_step_is_judged_for_stabilisation_by_the_increment_that_ends_it() {
 }
 
 #[test]
+fn strain_energy_without_work_is_told() {
+    let problem = problem();
+    let start = lowered(&problem, 0.0, 0.0);
+    let kinds_at = |share: f64| {
+        let mut end = lowered(&problem, 1.0, 0.0);
+        end.energies.strain = 1.0;
+        end.energies.external = 1.0 - share;
+        end.energies.numerical = -share;
+        kinds(&judged(&problem, &[start.clone(), end]))
+    };
+    // A force that does not rise after all does half of the work of its last value.
+    assert!(!kinds_at(0.5).contains(&Kind::Snap));
+    assert!(kinds_at(0.9).contains(&Kind::Snap));
+}
+
+#[test]
 fn tractions_of_round_off_are_not_judged_by_each_other() {
     let problem = problem();
     let mut states = [0.0, 1.0].map(|time| lowered(&problem, time, 0.0));
