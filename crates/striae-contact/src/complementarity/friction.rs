@@ -388,7 +388,11 @@ pub(super) fn along(
     } = limit;
     let (sign, radius) = (y.re.signum(), limit.re);
     let reduced = reduction(zw.re.abs(), zw.re * sign, radius, begins);
-    let m = radius / y.re.abs();
+    let m = match y.re == 0.0 {
+        // The limit of the quotient.
+        true => *by_length,
+        false => radius / y.re.abs(),
+    };
     let m = m - reduced * (m - by_length);
     let row = Q::combination([(1.0, &zw), (-m, y), (-sign, limit)]);
     let residual = zw.re - radius * sign;
