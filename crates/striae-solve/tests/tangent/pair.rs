@@ -48,7 +48,7 @@ const PRESSURES: [f64; 6] = [1.0, 3.0, 10.0, 30.0, 100.0, 0.1];
 /// Projections of friction before Newton's method takes over.
 const PROJECTIONS: usize = 20;
 /// Corrections of friction that depends on rate and state.
-const CREEPING: usize = 100;
+const CREEPING: usize = 200;
 
 /// A pair between two configurations, with the roles of the first.
 pub struct PairFunction<'a> {
