@@ -49,30 +49,9 @@ impl Selection {
         Self::in_roles(start, predicted, Roles::After(before), prescribed)
     }
 
-    /// The traction field of given kept nodes in these configurations.
-    pub fn with_kept(
-        start: &Configuration,
-        predicted: Option<&Configuration>,
-        kept: &Kept,
-        prescribed: &Prescribed,
-    ) -> Self {
-        Self::in_roles(start, predicted, Roles::Given(kept), prescribed)
-    }
-
-    /// The field of given kept nodes in these configurations, with what else this one has.
-    pub fn keeping(
-        &self,
-        start: &Configuration,
-        predicted: Option<&Configuration>,
-        kept: &Kept,
-        prescribed: &Prescribed,
-    ) -> Self {
-        Self {
-            offsets: self.offsets.clone(),
-            worn: self.worn.clone(),
-            fitted: self.fitted.clone(),
-            ..Self::with_kept(start, predicted, kept, prescribed)
-        }
+    /// The traction field of given kept nodes in the configuration that an increment starts from.
+    pub fn with_kept(start: &Configuration, kept: &Kept, prescribed: &Prescribed) -> Self {
+        Self::in_roles(start, None, Roles::Given(kept), prescribed)
     }
 
     fn in_roles(

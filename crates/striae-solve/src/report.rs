@@ -28,12 +28,9 @@ pub struct PairReport {
     pub name: String,
     /// Resultants of the two sides.
     pub sides: [SideReport; 2],
-    /// Largest resultant of a side, or integral of its pressure where that is larger: around a pin
-    /// resultants cancel.
-    pub load: f64,
-    /// Length of the sum of both resultants over the load.
+    /// Length of the sum of both resultants over the larger of them.
     pub mismatch: f64,
-    /// Length of the sum of both moments over the load times the size of the contact zone.
+    /// Length of the sum of both moments, over the larger resultant times the size of the contact zone.
     pub moment_mismatch: f64,
     /// Sticking nodes of both sides.
     pub stick: usize,
@@ -231,6 +228,7 @@ fn report(problem: &Problem, state: &State, pair: usize) -> PairReport {
     } else {
         side(problem, state, pair, Side::B)
     };
+    let mut largest = a.force.norm().max(b.force.norm());
     if is_self_contact {
         // Both walls are on side `a`, and their forces cancel: what one of them transmits.
         for sum in [
@@ -241,18 +239,16 @@ fn report(problem: &Problem, state: &State, pair: usize) -> PairReport {
         ] {
             *sum *= 0.5;
         }
+        largest = a.pressure;
     }
-    let loads = [&a, &b].map(|side| side.force.norm().max(side.pressure));
-    let load = loads[0].max(loads[1]);
     let arm = a.area.max(b.area).sqrt();
     let over = |value: f64, scale: f64| if scale > 0.0 { value / scale } else { 0.0 };
     let nodes: Vec<&NodeResult> = of_pair.nodes.iter().flatten().collect();
     let count = |status| nodes.iter().filter(|node| node.status == status).count();
     PairReport {
         name: problem.model.pairs[pair].name.clone(),
-        load,
-        mismatch: over((a.force + b.force).norm(), load),
-        moment_mismatch: over((a.moment + b.moment).norm(), load * arm),
+        mismatch: over((a.force + b.force).norm(), largest),
+        moment_mismatch: over((a.moment + b.moment).norm(), largest * arm),
         sides: [a, b],
         stick: count(Status::Stick),
         slip: count(Status::Slip),

@@ -8,7 +8,7 @@
 //!
 //! | kind | value | limit |
 //! | --- | --- | --- |
-//! | `mismatch` | sum of the resultants over the largest force of the pair so far, or integral of its pressure | 1e-6 |
+//! | `mismatch` | sum of the resultants over the largest force of the pair so far | 1e-6 |
 //! | `moment` | sum of the moments over the same and the size of the contact zone | 1e-2 |
 //! | `tension` | tensile nodal pressure over the largest pressure of the pair so far | 1e-6 |
 //! | `penetration` | depth over the size of the smaller facets there, see [`crate::interference`] | 0.1 |
@@ -360,7 +360,11 @@ impl Judgement {
         report: &PairReport,
         [before, after]: [&State; 2],
     ) {
-        let force = report.load;
+        let force = report
+            .sides
+            .iter()
+            .map(|side| side.force.norm())
+            .fold(0.0, f64::max);
         if force > self.forces[pair] {
             self.coarse(problem, pair, after);
         }

@@ -263,16 +263,4 @@ impl Selection {
         left_out.dedup();
         left_out
     }
-
-    /// Returns whether this field carries something in a configuration that another one, chosen
-    /// before, does not.
-    pub fn gains_on(
-        &self,
-        before: &Self,
-        start: &Configuration,
-        configuration: &Configuration,
-    ) -> bool {
-        let left_out = |of: &Self| of.left_out(start, configuration).len();
-        self.basis.kept != before.basis.kept || left_out(self) < left_out(before)
-    }
 }

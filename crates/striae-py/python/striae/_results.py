@@ -249,13 +249,13 @@ class PairResults:
 
     @property
     def area(self) -> float:
-        """Contact area: that of the points of side ``a`` under pressure (length squared)."""
+        """Area of side ``a`` that is covered (length squared)."""
         return float(self._whole["area_a"])
 
     @property
     def mismatch(self) -> float:
-        """Magnitude of the sum of the forces on both sides, relative to the larger one, or to
-        the integral of the pressure where that is larger (no unit)."""
+        """Magnitude of the sum of the forces on both sides, relative to the larger one (no
+        unit)."""
         return float(self._whole["mismatch"])
 
     @property
