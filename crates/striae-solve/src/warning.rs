@@ -293,13 +293,14 @@ impl Judgement {
         self.note(Kind::Imbalance, None, imbalance, after.time);
         let step = problem.model.steps.get(in_step.step);
         let made = before.energies.numerical - energies.numerical;
-        match step.is_some_and(|step| step.procedure == Procedure::QuasiStatic) {
+        match step.map(|step| step.procedure) {
             // Increments of a quasi-static step lose and gain by their finite size alone.
-            true => self.note(Kind::Snap, None, made, after.time),
-            false => {
+            Some(Procedure::QuasiStatic) => self.note(Kind::Snap, None, made, after.time),
+            Some(Procedure::Dynamic { .. }) => {
                 self.integrated += made;
                 self.note(Kind::Integration, None, self.integrated, after.time);
             }
+            None => {}
         }
         if in_step.reach == Reach::End {
             self.stabilisation(after);
