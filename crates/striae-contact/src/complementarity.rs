@@ -101,7 +101,9 @@ pub fn rows(
     let (mut decided, deviation, rows) = if is_closed(closes) {
         let (status, [first, second], deviation) = match friction.rate_and_state() {
             Some(law) if configuration.elapsed.is_finite() => {
-                let (status, rows) = creeping(&state, law, configuration, r_t);
+                let Linearisation { slip_weight, bound } = iteration.linearisation();
+                let how = (r_t * slip_weight, bound);
+                let (status, rows) = creeping(&state, law, configuration, how);
                 (status, rows, 0.0)
             }
             _ => tangential(&state, configuration, [z1, z2], r_t, iteration),

@@ -10,11 +10,15 @@
 //!
 //! with [`Friction::creep`](striae_law::friction::Friction::creep). Where this holds,
 //! `r K^-1 du = k v y/|y|`. As `du` is along `K y`, `v = |du|/dt` for `kappa = |K y|/|y|`. The
-//! row has the same solutions for every `r`; its Jacobian is exact. `r` is at least so large that a
+//! row has the same solutions for every `r`; its Jacobian is globalised as that of slip at a given
+//! friction, and exact at solutions. `r` is at least so large that a
 //! length `|y|` belongs to one rate, however friction falls with slip.
 //!
 //! A node that can slip along one direction only has this row along it. One that prescribed motions
 //! make slip has the friction of that rate, and one that cannot slip at all `z = 0`.
+//!
+//! While bounds of friction lag (see [`Iteration::later`](super::Iteration::later)), derivatives by
+//! the pressure are left out.
 //!
 //! A node is told to stick while its state grows nearly as at rest, at `v theta/D` below
 //! [`RESTING`].
@@ -23,8 +27,9 @@ use num_dual::{Dual64, DualSVec64};
 use striae_law::friction::{Creep, Past, RateAndState};
 
 use super::{
-    friction::{TangentialRow, across, part, traction},
+    friction::{Radius, TangentialRow, along, part, slip, traction},
     mobility::Mobility,
+    node::Bound,
     state::{NodeState, Q, TRACTION},
 };
 use crate::{
@@ -38,12 +43,12 @@ const RESTING: f64 = 0.01;
 /// Imposed slip over the facet size below which it is round-off.
 const ROUND_OFF: f64 = 1e-12;
 
-/// Status and tangential rows of a closed node; `r` is the default of `r_t`.
+/// Status and tangential rows of a closed node with `r_t` and the given bound.
 pub(super) fn creeping(
     state: &NodeState,
     law: &RateAndState,
     configuration: &Configuration,
-    r: f64,
+    (r, bound): (f64, Bound),
 ) -> (Status, [TangentialRow; 2]) {
     let [p, z1, z2] = state.node.unknowns;
     let creeping = Creeping {
@@ -55,6 +60,10 @@ pub(super) fn creeping(
             elapsed: configuration.elapsed,
         },
         pressure: state.node.kinematics.bounding_pressure(p),
+        by_pressure: match bound {
+            Bound::Coupled => 1.0,
+            Bound::Lagging => 0.0,
+        },
         z: [Q::variable(z1, TRACTION + 1), Q::variable(z2, TRACTION + 2)],
         k_inverse: [[0, 0], [0, 1], [1, 0], [1, 1]].map(|[i, j]| state.k_inverse(i, j)),
     };
@@ -73,6 +82,8 @@ struct Creeping<'a> {
     law: &'a RateAndState,
     past: Past,
     pressure: f64,
+    /// Factor on derivatives by the pressure.
+    by_pressure: f64,
     z: [Q; 2],
     /// Components of `K^-1` along the tangents, by rows.
     k_inverse: [Q; 4],
@@ -90,7 +101,7 @@ impl Creeping<'_> {
         match norm * needed.re > r {
             true => {
                 let mut needed_r = Q::constant(norm * needed.re);
-                needed_r.slope[self.state.pressure_lane()] = norm * needed.eps;
+                needed_r.slope[self.state.pressure_lane()] = self.by_pressure * norm * needed.eps;
                 needed_r
             }
             false => Q::constant(r),
@@ -108,24 +119,18 @@ impl Creeping<'_> {
             return self.held();
         };
         let (rate, radius) = self.shared(&length, &direction, r);
-        let rows = [0, 1].map(|at| {
-            let along = Q::product(&radius, &direction[at]);
-            traction(Q::combination([(1.0, &self.z[at]), (-1.0, &along)]))
-        });
-        (self.status(rate), rows)
+        (self.status(rate), slip(&self.z, &y, &radius, false))
     }
 
     /// `w . z = Z sign(y)` with `y = w . (z + r K^-1 du)`, and no `z` across.
     fn along(&self, w: &[Q; 2], r: &Q) -> (Status, [TangentialRow; 2]) {
-        let zw = part(w, &self.z);
         let spring = Q::product(r, &part(w, &self.state.turned));
-        let y = Q::combination([(1.0, &zw), (1.0, &spring)]);
+        let y = Q::combination([(1.0, &part(w, &self.z)), (1.0, &spring)]);
         let sign = y.re.signum();
         let length = Q::combination([(sign, &y)]);
         let direction = w.map(|w| Q::combination([(sign, &w)]));
         let (rate, radius) = self.shared(&length, &direction, r);
-        let row = traction(Q::combination([(1.0, &zw), (-sign, &radius)]));
-        (self.status(rate), [row, across(w, &self.z)])
+        (self.status(rate), along(w, &self.z, &y, &radius, false))
     }
 
     /// `z = 0`.
@@ -150,7 +155,7 @@ impl Creeping<'_> {
         let [by_log_rate, by_pressure] = gradient(&varpi);
         let mut cap = Q::combination([(by_log_rate / way.re, &way)]);
         cap.re = varpi.re;
-        cap.slope[self.state.pressure_lane()] += by_pressure;
+        cap.slope[self.state.pressure_lane()] += self.by_pressure * by_pressure;
         let radius = Q::product(&cap, &self.state.reach(&direction));
         let rows = [0, 1].map(|at| {
             let along = Q::product(&radius, &direction[at]);
@@ -160,7 +165,7 @@ impl Creeping<'_> {
     }
 
     /// The slip rate, and `Z` for a length `|y|` and a direction.
-    fn shared(&self, length: &Q, direction: &[Q; 2], r: &Q) -> (f64, Q) {
+    fn shared(&self, length: &Q, direction: &[Q; 2], r: &Q) -> (f64, Radius) {
         let reach = self.state.reach(direction);
         let kappa_inverse = self.over_slip(direction);
         let mut stiffness = Q::product(r, &kappa_inverse);
@@ -177,15 +182,12 @@ impl Creeping<'_> {
             by_reach,
             by_stiffness,
         } = found;
-        let mut of_length = Q::combination([
-            (by_length, length),
-            (by_reach, &reach),
-            (by_stiffness, &stiffness),
-        ]);
-        of_length.slope[self.state.pressure_lane()] += by_pressure;
-        let radius = Q {
-            re: radius,
-            ..of_length
+        let mut at_length = Q::combination([(by_reach, &reach), (by_stiffness, &stiffness)]);
+        at_length.slope[self.state.pressure_lane()] += self.by_pressure * by_pressure;
+        at_length.re = radius;
+        let radius = Radius {
+            at_length,
+            by_length,
         };
         (slip_rate, radius)
     }

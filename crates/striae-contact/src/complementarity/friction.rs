@@ -139,7 +139,7 @@ impl Friction<'_> {
                 let radius = self.reaching(&self.varpi, &way).re;
                 let slips = self.slips(y.re.abs(), radius, way.map(|way| way.re));
                 let limit = || self.reaching(&self.begun, &way);
-                let rows = || along(w, &self.z, &y, &limit(), begins);
+                let rows = || along(w, &self.z, &y, &Radius::given(limit()), begins);
                 (slips, has_slip(slips).then(rows))
             }
             Mobility::Driven => {
@@ -151,7 +151,10 @@ impl Friction<'_> {
                 let length = y[0].re.hypot(y[1].re);
                 let radius = self.reaching(&self.varpi, &y).re;
                 let slips = self.slips(length, radius, y.map(|y| y.re));
-                let rows = || slip(&self.z, &y, &self.reaching(&self.begun, &y), begins);
+                let rows = || {
+                    let radius = Radius::given(self.reaching(&self.begun, &y));
+                    slip(&self.z, &y, &radius, begins)
+                };
                 (slips, has_slip(slips).then(rows))
             }
         };
@@ -200,7 +203,7 @@ impl Friction<'_> {
                 slips([z, 0.0], [turned, 0.0]).then(|| {
                     let y = self.along(w, r);
                     let way = w.map(|w| Q::combination([(y.re.signum(), &w)]));
-                    along(w, &self.z, &y, &radius(&way), false)
+                    along(w, &self.z, &y, &Radius::given(radius(&way)), false)
                 })
             }
             Mobility::Driven => self.driven(),
@@ -208,7 +211,7 @@ impl Friction<'_> {
                 let [z, turned] = [&self.z, turned].map(|v| [v[0].re, v[1].re]);
                 slips(z, turned).then(|| {
                     let y = self.y(r);
-                    slip(&self.z, &y, &radius(&y), false)
+                    slip(&self.z, &y, &Radius::given(radius(&y)), false)
                 })
             }
         };
@@ -219,7 +222,10 @@ impl Friction<'_> {
     fn driven(&self) -> Option<[TangentialRow; 2]> {
         let turned = &self.state.turned;
         let moves = turned[0].re != 0.0 || turned[1].re != 0.0;
-        moves.then(|| slip(&self.z, turned, &self.reaching(&self.varpi, turned), false))
+        moves.then(|| {
+            let radius = Radius::given(self.reaching(&self.varpi, turned));
+            slip(&self.z, turned, &radius, false)
+        })
     }
 
     /// Radius of the slip surface at which slip continues: if friction depends on the slip rate,
@@ -342,18 +348,51 @@ pub(super) fn part(q: &[Q; 2], v: &[Q; 2]) -> Q {
 }
 
 /// No `z` across the unit vector `w`.
-pub(super) fn across(w: &[Q; 2], z: &[Q; 2]) -> TangentialRow {
+fn across(w: &[Q; 2], z: &[Q; 2]) -> TangentialRow {
     let [first, second] = w;
     let across = [Q::combination([(-1.0, second)]), *first];
     traction(part(&across, z))
 }
 
+/// Radius of the slip surface.
+pub(super) struct Radius {
+    /// At a given length of `y`.
+    pub(super) at_length: Q,
+    /// Derivative by that length.
+    pub(super) by_length: f64,
+}
+
+impl Radius {
+    /// A radius that does not depend on the length of `y`.
+    fn given(at_length: Q) -> Self {
+        Self {
+            at_length,
+            by_length: 0.0,
+        }
+    }
+}
+
 /// `z = radius sign(y) w`: [`slip`] along the unit vector `w`, with its Jacobian that does not
 /// let a node whose slip turns around jump from one side of the slip surface to the other.
-fn along(w: &[Q; 2], z: &[Q; 2], y: &Q, limit: &Q, begins: bool) -> [TangentialRow; 2] {
+pub(super) fn along(
+    w: &[Q; 2],
+    z: &[Q; 2],
+    y: &Q,
+    limit: &Radius,
+    begins: bool,
+) -> [TangentialRow; 2] {
     let zw = part(w, z);
+    let Radius {
+        at_length: limit,
+        by_length,
+    } = limit;
     let (sign, radius) = (y.re.signum(), limit.re);
-    let m = (1.0 - reduction(zw.re.abs(), zw.re * sign, radius, begins)) * radius / y.re.abs();
+    let reduced = reduction(zw.re.abs(), zw.re * sign, radius, begins);
+    let m = match y.re == 0.0 {
+        // The limit of the quotient.
+        true => *by_length,
+        false => (1.0 - reduced) * radius / y.re.abs() + reduced * by_length,
+    };
     let row = Q::combination([(1.0, &zw), (-m, y), (-sign, limit)]);
     let residual = zw.re - radius * sign;
     [(Field::Traction, residual, row.slope), across(w, z)]
@@ -401,8 +440,12 @@ fn damping(length: f64, along: f64, radius: f64) -> f64 {
     }
 }
 
-/// `z = radius y/|y|`.
-fn slip(z: &[Q; 2], y: &[Q; 2], limit: &Q, begins: bool) -> [TangentialRow; 2] {
+/// `z = radius y/|y|`, with `beta F` of [`super`] and `M = radius/|y| (I - beta F) + radius' beta F`.
+pub(super) fn slip(z: &[Q; 2], y: &[Q; 2], limit: &Radius, begins: bool) -> [TangentialRow; 2] {
+    let Radius {
+        at_length: limit,
+        by_length,
+    } = limit;
     let zv = Vector2::new(z[0].re, z[1].re);
     let yv = Vector2::new(y[0].re, y[1].re);
     let (length, direction) = polar(yv);
@@ -415,7 +458,7 @@ fn slip(z: &[Q; 2], y: &[Q; 2], limit: &Q, begins: bool) -> [TangentialRow; 2] {
         true => Matrix2::zeros(),
         false => zv * direction.transpose() * (reduced / along),
     };
-    let m = (Matrix2::identity() - f) * (radius / length);
+    let m = (Matrix2::identity() - f) * (radius / length) + f * *by_length;
     [0, 1].map(|at| {
         let row = Q::combination([
             (1.0, &z[at]),
@@ -440,7 +483,7 @@ mod tests {
             assert!((direction - Vector2::new(0.6, -0.8)).norm() < 1e-6);
         }
         let [z, y] = [1e-309, -1e-309].map(|z| [Q::constant(z), Q::constant(-0.5 * z)]);
-        for (_, residual, row) in slip(&z, &y, &Q::constant(2e-310), false) {
+        for (_, residual, row) in slip(&z, &y, &Radius::given(Q::constant(2e-310)), false) {
             assert!(residual.is_finite() && row.iter().all(|slope| slope.is_finite()));
         }
     }

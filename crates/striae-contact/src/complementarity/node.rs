@@ -41,6 +41,14 @@ impl Iteration {
         };
         Self::Later(Linearisation { slip_weight, bound })
     }
+
+    /// Linearisation of the slip rows.
+    pub(super) fn linearisation(self) -> Linearisation {
+        match self {
+            Self::Later(linearisation) => linearisation,
+            Self::First | Self::Corrected(_) | Self::Given => Linearisation::NEWTON,
+        }
+    }
 }
 
 /// Linearisation of the slip rows, which decides how the solution is found, not which one it is.

@@ -49,7 +49,7 @@ fn check(name: &str, model: &Model, on_bodies: bool) {
                 false => of_rigid(&problem, 0.1, 11),
             };
             let pair = PairFunction::new(&context, start, now, ELAPSED);
-            let pressed = [0.3, 30.0].map(|pressure| pair.pressed(pressure));
+            let pressed = [0.3, 30.0].map(|pressure| pair.crept(pressure));
             for u in pressed {
                 pair.assert_order(&u, &format!("{name}, {enforcement:?}, {evolution:?}"));
             }

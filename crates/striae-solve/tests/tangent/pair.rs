@@ -47,6 +47,8 @@ const PRESSURES: [f64; 6] = [1.0, 3.0, 10.0, 30.0, 100.0, 0.1];
 
 /// Projections of friction before Newton's method takes over.
 const PROJECTIONS: usize = 20;
+/// Corrections of friction that depends on rate and state.
+const CREEPING: usize = 200;
 
 /// A pair between two configurations, with the roles of the first.
 pub struct PairFunction<'a> {
@@ -272,10 +274,34 @@ impl<'a> PairFunction<'a> {
         u
     }
 
-    /// Unknowns of nodes that are pressed, with any friction: rows of friction that depends on rate
-    /// and state have an exact Jacobian everywhere.
-    pub fn pressed(&self, pressure: f64) -> DVector<f64> {
-        self.placed(Wanted::Slip, pressure)
+    /// Unknowns of nodes that are pressed, with the friction at their slips by rate and state: where
+    /// its rows are satisfied, their Jacobian is exact.
+    pub fn crept(&self, pressure: f64) -> DVector<f64> {
+        let mut u = self.placed(Wanted::Slip, pressure);
+        let numbering = self.context.pairs[0].numbering();
+        let kept = self.selection.kept().iter();
+        let rows: Vec<usize> = kept
+            .flat_map(|kept| {
+                let first = numbering.traction(kept.side, kept.node) as usize;
+                [first + 1, first + 2]
+            })
+            .collect();
+        let mut off = f64::INFINITY;
+        for made in 0..CREEPING {
+            let residual = self.residual(&u).select_rows(&rows);
+            off = residual.amax();
+            if off < 1e-12 * pressure.max(1.0) {
+                return u;
+            }
+            let slope = self.tangent(&u).select_rows(&rows).select_columns(&rows);
+            let step = slope.lu().solve(&residual).expect("slip rows are regular");
+            // At given slips nothing yields, so that friction can go round its solution.
+            let step = step * if made < CREEPING / 4 { 1.0 } else { 0.3 };
+            for (row, step) in rows.iter().zip(step.iter()) {
+                u[*row] -= step;
+            }
+        }
+        panic!("friction is off by {off:.1e}");
     }
 
     /// With the slip rows satisfied.
