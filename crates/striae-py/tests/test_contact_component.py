@@ -140,6 +140,13 @@ def test_a_state_continues_after_storage_to_the_bit() -> None:
     np.testing.assert_array_equal(copy.deepcopy(state).positions, state.positions)
 
 
+def test_friction_by_rate_and_state_needs_a_duration() -> None:
+    law = st.Coulomb(MU).with_ageing_law(0.01, 0.015, 1.0, 1.0)
+    contact = pad(law)
+    with pytest.raises(st.ModelError, match=r"duration: friction of pairs\[0\] depends on rate and state"):
+        contact.begin(contact.untouched())
+
+
 def test_friction_by_the_slip_rate_takes_the_duration() -> None:
     law, u, duration = st.Coulomb(MU).with_stribeck(0.5, 0.02), 0.06, 0.5
     contact = pad(law)

@@ -72,6 +72,14 @@ pub enum FaultKind {
         /// The number.
         value: f64,
     },
+    /// An infinite duration for friction that depends on rate and state.
+    #[error(
+        "friction of pairs[{pair}] depends on rate and state: state how long the increment takes"
+    )]
+    Endless {
+        /// The pair.
+        pair: usize,
+    },
     /// A vector that is not finite.
     #[error("row {row} is not finite")]
     NotFinite {

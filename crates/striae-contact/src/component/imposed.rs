@@ -78,6 +78,11 @@ impl Imposed {
         if value.is_nan() || value <= 0.0 {
             return Err(Faults::one("duration", FaultKind::NotPositive { value }));
         }
+        let mut members = contact.members().iter();
+        let creeps = members.position(|of| of.friction.rate_and_state().is_some());
+        if let Some(pair) = creeps.filter(|_| value.is_infinite()) {
+            return Err(Faults::one("duration", FaultKind::Endless { pair }));
+        }
         Ok(all)
     }
 }

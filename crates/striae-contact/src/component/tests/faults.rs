@@ -1,6 +1,6 @@
 //! Wrong uses, and the words that meet them.
 
-use striae_law::friction::{Friction, SlipRule};
+use striae_law::friction::{Evolution, Friction, RateAndState, SlipRule, StateDependence};
 use striae_mesh::{NodeId, Vec3};
 
 use super::springs::grid;
@@ -21,6 +21,24 @@ fn pair(facets: Vec<[NodeId; 4]>) -> Pair {
         },
         friction: Friction::frictionless(),
         search_distance: None,
+    }
+}
+
+/// A pair whose friction depends on rate and state.
+fn creeping(facets: Vec<[NodeId; 4]>) -> Pair {
+    let law = RateAndState {
+        evolution: Evolution::Ageing,
+        direct_effect: 0.01,
+        evolution_effect: 0.015,
+        slip_rate: 1e-6,
+        slip_distance: 1e-5,
+        state: 10.0,
+    };
+    let law = StateDependence::rate_and_state(law).unwrap();
+    let friction = Friction::coulomb(0.6).unwrap().with_state(law);
+    Pair {
+        friction,
+        ..pair(facets)
     }
 }
 
@@ -104,6 +122,12 @@ fn faults_of_increments_are_told_with_their_place() {
         ..Imposed::default()
     };
     assert_eq!(begun(still), "duration: it must be positive, but is 0");
+    let creeping = Contact::new(points.clone(), &[creeping(grid(1, 1.0, 0, false).1)]).unwrap();
+    let endless = creeping.begin(&creeping.untouched(), &Imposed::default());
+    assert_eq!(
+        endless.expect_err("a fault").to_string(),
+        "duration: friction of pairs[0] depends on rate and state: state how long the increment takes"
+    );
     let increment = contact.begin(&state, &Imposed::default()).unwrap();
     let evaluated = |x: &[Vec3], t: &[f64]| {
         let found = increment.evaluate(x, t, None);
