@@ -64,6 +64,19 @@ def test_what_is_no_parameter_is_told() -> None:
         st.differentiate(model_of(), {"mu": 0.3})  # type: ignore[arg-type]
 
 
+def test_faults_of_the_model_are_not_those_of_a_value_beside_it() -> None:
+    def twice(mu: float) -> st.Model:
+        body, floor = st.Body("pad", st.block(divisions=(2, 2, 2)), st.NeoHookean(1e6, 0.3)), st.Plane("floor")
+        pairs = [st.Pair(body[face], floor, st.Coulomb(mu), name="foot") for face in ("zmin", "xmax")]
+        model = st.Model([body], [floor], pairs)
+        model.step("press", body["zmax"].displace(x=0, y=0, z=-0.02), increments=2)
+        return model
+
+    with pytest.raises(st.ModelError, match=r"pairs\[1\]\.name") as refused:
+        st.differentiate(twice, {"mu": 0.3})
+    assert "both sides" not in str(refused.value)
+
+
 def test_parameters_that_change_the_mesh_are_refused() -> None:
     def divided(parts: float) -> st.Model:
         body = st.Body("pad", st.block(divisions=(1 if parts < 2 else 2, 1, 1)), st.NeoHookean(1e6, 0.3))

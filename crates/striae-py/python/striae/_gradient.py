@@ -48,6 +48,8 @@ def differentiate(
         raise refuse("parameters", "at least one parameter is needed")
     values = {name: check.number(value, name) for name, value in parameters.items()}
     model = check.kind(model_of(**values), Model, "model_of")
+    # Faults that the model has anyway are not told as those of a value beside it.
+    model._compiled()
     steps, neighbours = {}, []
     for name, value in values.items():
         # Such that value and step add up without round-off.
