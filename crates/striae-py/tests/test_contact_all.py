@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 import striae as st
@@ -67,6 +69,12 @@ def test_wrong_uses_are_told(pad: st.Body, floor: st.Plane) -> None:
         model.contact_all(exclude=[3])  # type: ignore[list-item]
     with pytest.raises(TypeError, match="has no texture"):
         model.contact_all(textures=[pad["zmin"]])
+    three: Any = [("a", "b", "floor")]
+    with pytest.raises(st.ModelError, match="exclude: tuples of two surfaces are needed, not of 3"):
+        model.contact_all(exclude=three)
+    two: Any = [("a", "b")]
+    with pytest.raises(st.ModelError, match="between: tuples of two surfaces and their law"):
+        model.contact_all(between=two)
     model.contact_all(exclude=["rod"])
     with pytest.raises(st.ModelError, match="no body or rigid surface is named `rod`"):
         model.check()

@@ -8,6 +8,7 @@ from typing import Literal, Optional, TypeAlias, Union
 from . import _check as check
 from . import _striae as native
 from ._body import Body, BodySet
+from ._errors import refuse
 from ._friction import Friction
 from ._made import Strict
 from ._rigid import Rigid
@@ -43,9 +44,14 @@ class Everything(Strict):
         self.friction = friction
         self.painted: dict[str, Texture] = {}
         for one in exclude:
+            if isinstance(one, tuple) and len(one) != 2:
+                raise refuse("exclude", f"tuples of two surfaces are needed, not of {len(one)}")
             a, b = one if isinstance(one, tuple) else (one, None)
             made = made.excluding(label(a, "exclude"), None if b is None else label(b, "exclude"))
-        for a, b, law in between:
+        for stated in between:
+            if not isinstance(stated, (tuple, list)) or len(stated) != 3:
+                raise refuse("between", "tuples of two surfaces and their law are needed")
+            a, b, law = stated
             law = check.kind(law, Friction, "between")
             made = made.between(label(a, "between"), label(b, "between"), law._native)
             self._paint(a, b)
