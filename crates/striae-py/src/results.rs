@@ -162,7 +162,7 @@ impl Results {
             let vector = |of: Vec3| PyArray1::from_vec(py, of.iter().copied().collect());
             all.set_item(format!("force_{letter}"), vector(side.force))?;
             all.set_item(format!("moment_{letter}"), vector(side.moment))?;
-            all.set_item(format!("area_{letter}"), side.area)?;
+            all.set_item(format!("area_{letter}"), side.pressed)?;
         }
         all.set_item("mismatch", report.mismatch)?;
         all.set_item("stick", report.stick)?;

@@ -249,7 +249,7 @@ class PairResults:
 
     @property
     def area(self) -> float:
-        """Area of side ``a`` that is covered (length squared)."""
+        """Contact area: that of the points of side ``a`` under pressure (length squared)."""
         return float(self._whole["area_a"])
 
     @property
