@@ -105,7 +105,8 @@ class Friction(Dependences):
     def with_shear_cap(self, shear_cap: float) -> Friction:
         """The law with a bound on friction.
 
-        shear_cap: largest shear stress that friction carries (force per area).
+        shear_cap: largest value of ``mu p``; laws of directions keep their proportions (force
+            per area).
         """
         cap = check.number(shear_cap, "shear_cap")
         recipe: Recipe = (Friction.with_shear_cap, (self, cap), {})
