@@ -2,17 +2,8 @@
 //!
 //! If displacements are prescribed on both sides, or several pairs hold one node, positions are
 //! left that answer to fewer tractions than there are unknowns: a plane of symmetry, the edge along
-//! which two planes meet. With the positions `J` that contact moves, `P_J` that removes the
-//! prescribed components and `kappa_J` of [`crate::roles`], the unknowns of a kept node `k` act by
-//! the columns
-//!
-//! ```text
-//! pressure   f_Jk  = sqrt(kappa_J) P_J sum_segments (+-) D_kJ n                / sqrt(w_k l_k)
-//! friction   f_Jka = sqrt(kappa_J) P_J sum_segments (+-) D_kJ R(n, n_k) t_a    / sqrt(w_k l_k)
-//! D_kJ = integral phi_k N_J
-//! ```
-//!
-//! and `S = f^T f` is the Gram matrix of all columns of all pairs, with pivots of the scale of
+//! which two planes meet. With the actions `f` of [`crate::moved_pair`] on what positions are free,
+//! `S = f^T f` is the Gram matrix of all columns of all pairs, with pivots of the scale of
 //! those of the roles. Pressures of closed nodes go first; then the directions that nothing
 //! disturbs; what is left is *contested*. Of the contested nodes that one is taken next whose
 //! 2x2 remainder after elimination has the largest eigenvalue, and the direction of that
@@ -40,83 +31,31 @@ mod gram;
 
 use std::collections::BTreeMap;
 
-use nalgebra::{Matrix2, Matrix3, SymmetricEigen, Vector2};
+use nalgebra::{Matrix2, SymmetricEigen, Vector2};
 use striae_mesh::Vec3;
 use striae_surface::node::SurfaceNode;
 
 use crate::{
-    configuration::Configuration,
     coverage::Place,
     frame::{Frame, frame_of},
-    pairing::{Corners, SIGNS, paired_facets},
-    patch::kept_on,
+    moved_pair::{Actions, MOSTLY, MovedPair, product},
     placement::Placement,
-    segment::SegmentDerivatives,
-    selection::Selection,
     side::Side,
     slip_freedom::SlipFreedom,
     traction_basis::KeptNode,
-    transported::Transported,
 };
-use gram::{Column, Gram, Node, combination, product};
+use gram::{Gram, Node, combination};
 
 /// Eigenvalue from which a direction is determined, in the scale of pivots.
 const DETERMINED: f64 = 1e-4;
 /// Part of its free eigenvalue that a direction has where nothing disturbs it.
 const UNDISTURBED: f64 = 1.0 - 1e-6;
-/// Gap up to which a node touches, over the size of its segments.
-const TOUCHING: f64 = 1e-6;
 /// Motion of a node past what it faces, over the facet size, that is round-off.
 const ROUND_OFF: f64 = 1e-9;
-/// Square of the free part of a unit vector below which a node is prescribed along it, and weight of
-/// such nodes above which a point is.
-const MOSTLY: f64 = 0.5;
-
-/// A position that contact moves.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Mover {
-    /// Number of the node, equal in all pairs.
-    pub number: u32,
-    /// Components that are prescribed.
-    pub prescribed: [bool; 3],
-    /// Axes of the components in columns, where they are not the coordinate axes.
-    pub axes: Option<Matrix3<f64>>,
-    /// Motion in the increment along the prescribed components; `None` if others move it.
-    pub motion: Option<Vec3>,
-}
-
-impl Mover {
-    /// Motion along a unit vector; `None` unless it is prescribed.
-    fn imposed(&self, c: &Vec3) -> Option<f64> {
-        let motion = self.motion?;
-        let is_held = (self.free() * c).norm_squared() < MOSTLY;
-        is_held.then(|| motion.dot(c))
-    }
-
-    /// Returns whether nothing moves it but displacements.
-    fn is_rigid(&self) -> bool {
-        self.prescribed == [true; 3]
-    }
-
-    /// Projection to the directions that are not prescribed.
-    fn free(&self) -> Matrix3<f64> {
-        let free = self.prescribed.map(|held| f64::from(u8::from(!held)));
-        let along_axes = Matrix3::from_diagonal(&free.into());
-        match self.axes {
-            Some(axes) => axes * along_axes * axes.transpose(),
-            None => along_axes,
-        }
-    }
-}
-
 /// A pair as it takes part in the choice.
 pub struct Party<'a> {
-    /// Configuration of the pair.
-    pub configuration: &'a Configuration<'a>,
-    /// Roles.
-    pub selection: &'a Selection,
-    /// The nodes of the deformable sides.
-    pub movers: [Vec<Mover>; 2],
+    /// The pair and the positions that it moves.
+    pub moved: MovedPair<'a>,
     /// Kept nodes that are known to be closed; those that touch are closed, too.
     pub closed: Vec<bool>,
     /// Has friction in this step.
@@ -133,10 +72,10 @@ pub fn slip_freedoms(parties: &[Party]) -> Option<Vec<Vec<SlipFreedom>>> {
     let mut gram = Gram::default();
     let mut nodes = Vec::new();
     for party in parties {
-        for actions in actions(party) {
+        for (actions, closed) in party.moved.actions().iter().zip(&party.closed) {
             nodes.push(Node::new(
-                &actions,
-                party.has_friction,
+                actions,
+                (actions.touches || *closed, party.has_friction),
                 &disturbed,
                 &mut gram,
             ));
@@ -145,7 +84,7 @@ pub fn slip_freedoms(parties: &[Party]) -> Option<Vec<Vec<SlipFreedom>>> {
     gram.contest(&mut nodes);
     let mut freedoms = nodes.iter().map(Node::freedom);
     let of_party = |party: &Party| {
-        let of_kept = party.selection.kept().iter().zip(freedoms.by_ref());
+        let of_kept = party.moved.selection.kept().iter().zip(freedoms.by_ref());
         of_kept
             .map(|(kept, freedom)| match party.drives(kept, freedom) {
                 true => SlipFreedom::Driven,
@@ -162,7 +101,7 @@ impl Party<'_> {
         if !self.has_friction || freedom == SlipFreedom::Plane {
             return false;
         }
-        let (configuration, (side, node)) = (self.configuration, kept.place());
+        let (configuration, (side, node)) = (self.moved.configuration, kept.place());
         let Frame { t: [t1, t2], .. } = frame_of(configuration, side, node);
         let lost = match freedom {
             SlipFreedom::Line([q1, q2]) => vec![t2.value * q1 - t1.value * q2],
@@ -173,7 +112,7 @@ impl Party<'_> {
         };
         let round_off = ROUND_OFF * configuration.size(side, node);
         lost.iter().any(|c| {
-            let own = self.movers[side][node].imposed(c);
+            let own = self.moved.movers[side][node].imposed(c);
             let opposing = own.and_then(|_| self.imposed_on(&contact.place, side, c));
             own.zip(opposing)
                 .is_some_and(|(own, opposing)| (own - opposing).abs() > round_off)
@@ -183,7 +122,7 @@ impl Party<'_> {
     /// Motion along a unit vector of the point that a node of a side faces; `None` unless most of
     /// it is prescribed.
     fn imposed_on(&self, place: &Place, side: Side, c: &Vec3) -> Option<f64> {
-        let configuration = self.configuration;
+        let configuration = self.moved.configuration;
         if configuration.pair.is_rigid() {
             let at = place.point(configuration, side);
             let reference = configuration.placement.back(&at);
@@ -191,7 +130,7 @@ impl Party<'_> {
             return Some((end - start).dot(c));
         }
         let (corners, weights) = place.weights(configuration, side)?;
-        let movers = &self.movers[configuration.pair.opposing(side)];
+        let movers = &self.moved.movers[configuration.pair.opposing(side)];
         let corners = corners.iter().zip(weights);
         let known = corners.filter_map(|(&corner, weight)| {
             let motion = movers[corner.index()].imposed(c)?;
@@ -208,9 +147,9 @@ fn disturbed(parties: &[Party]) -> Option<BTreeMap<u32, bool>> {
     let mut seat_of = BTreeMap::new();
     let mut disturbed = BTreeMap::new();
     for (at, party) in parties.iter().enumerate() {
-        for &side in party.configuration.pair.deformable_sides() {
-            for (node, mover) in party.movers[side].iter().enumerate() {
-                if !party.selection.carries(side, SurfaceNode::new(node)) {
+        for &side in party.moved.configuration.pair.deformable_sides() {
+            for (node, mover) in party.moved.movers[side].iter().enumerate() {
+                if !party.moved.selection.carries(side, SurfaceNode::new(node)) {
                     continue;
                 }
                 if mover.is_rigid() {
@@ -228,97 +167,15 @@ fn disturbed(parties: &[Party]) -> Option<BTreeMap<u32, bool>> {
     (has_friction && !disturbed.is_empty()).then_some(disturbed)
 }
 
-/// Actions of the unknowns of a kept node: pressure, then friction along both tangents.
-#[derive(Clone, Default)]
-struct Actions {
-    /// By number of the mover, with prescribed components.
-    whole: BTreeMap<u32, [Vec3; 3]>,
-    /// Projections to what is free of the movers.
-    free: BTreeMap<u32, Matrix3<f64>>,
-    is_closed: bool,
-}
-
-impl Actions {
-    /// The part of an action that moves anything.
-    fn column(&self, component: usize) -> Column {
-        let free =
-            |(number, whole): (&u32, &[Vec3; 3])| (*number, self.free[number] * whole[component]);
-        self.whole.iter().map(free).collect()
-    }
-}
-
-/// Actions of the kept nodes of a pair.
-fn actions(party: &Party) -> Vec<Actions> {
-    let (configuration, selection) = (party.configuration, party.selection);
-    let kept = selection.kept();
-    let normals: Vec<_> = kept
-        .iter()
-        .map(|kept| frame_of(configuration, kept.side, kept.node))
-        .collect();
-    let of_kept = |is_closed: &bool| Actions {
-        is_closed: *is_closed,
-        ..Actions::default()
-    };
-    let mut actions: Vec<Actions> = party.closed.iter().map(of_kept).collect();
-    let none = |_: &[Corners]| SegmentDerivatives::None;
-    for paired in paired_facets(configuration, selection.scope(), &none, |_| true) {
-        let n = paired.segment.normal;
-        let corners: Vec<_> = (0..8)
-            .filter_map(|corner| Some((corner, paired.node(configuration, corner)?)))
-            .collect();
-        let touches = paired.least_gap(configuration) <= TOUCHING * paired.segment.area.sqrt();
-        for on_segment in kept_on(configuration, selection, &paired) {
-            let k = on_segment.k as usize;
-            actions[k].is_closed |= touches;
-            let frame = &normals[k];
-            let turned = |axis: usize| {
-                let t = &frame.t[axis].value;
-                Transported::new(t, &(frame.n.value * on_segment.sign), &n).value
-            };
-            let directions = [turned(0), turned(1)];
-            let scale = selection.weight(k) * selection.basis.flexibility[k];
-            for &(corner, (side, node)) in &corners {
-                let mover = &party.movers[side][node];
-                let kappa = kappa(configuration, side, node);
-                let by = SIGNS[corner] * (kappa / scale).sqrt();
-                let mass = &paired.segment.mass[corner];
-                let share = |shares: &[f64; 8]| -> f64 {
-                    by * shares
-                        .iter()
-                        .zip(mass)
-                        .map(|(share, m)| share * m)
-                        .sum::<f64>()
-                };
-                let [pressure, friction] = [&on_segment.shares, &on_segment.slips].map(share);
-                if scale == 0.0 || pressure == 0.0 || mover.is_rigid() {
-                    continue;
-                }
-                let whole = actions[k].whole.entry(mover.number).or_default();
-                whole[0] += n * pressure;
-                for (sum, direction) in whole[1..].iter_mut().zip(&directions) {
-                    *sum += direction * friction;
-                }
-                actions[k].free.insert(mover.number, mover.free());
-            }
-        }
-    }
-    actions
-}
-
-/// `1/(E h)` at a node.
-fn kappa(configuration: &Configuration, side: Side, node: SurfaceNode) -> f64 {
-    (configuration.pair.sides[side].stiffness * configuration.size(side, node)).recip()
-}
-
 impl Node {
     fn new(
         actions: &Actions,
-        has_friction: bool,
+        (is_closed, has_friction): (bool, bool),
         disturbed: &BTreeMap<u32, bool>,
         gram: &mut Gram,
     ) -> Self {
         let mut node = Self {
-            is_closed: actions.is_closed,
+            is_closed,
             kept: Vec::new(),
             contested: Vec::new(),
         };

@@ -49,9 +49,32 @@ impl Selection {
         Self::in_roles(start, predicted, Roles::After(before), prescribed)
     }
 
-    /// The traction field of given kept nodes in the configuration that an increment starts from.
-    pub fn with_kept(start: &Configuration, kept: &Kept, prescribed: &Prescribed) -> Self {
-        Self::in_roles(start, None, Roles::Given(kept), prescribed)
+    /// The traction field of given kept nodes in these configurations.
+    pub fn with_kept(
+        start: &Configuration,
+        predicted: Option<&Configuration>,
+        kept: &Kept,
+        prescribed: &Prescribed,
+    ) -> Self {
+        Self::in_roles(start, predicted, Roles::Given(kept), prescribed)
+    }
+
+    /// The field of the nodes that remain to a pair in these configurations, with what else this one
+    /// has.
+    pub fn keeping(
+        &self,
+        start: &Configuration,
+        predicted: Option<&Configuration>,
+        kept: &Kept,
+        prescribed: &Prescribed,
+    ) -> Self {
+        Self {
+            offsets: self.offsets.clone(),
+            worn: self.worn.clone(),
+            fitted: self.fitted.clone(),
+            has_yielded: !kept.iter().flatten().any(|is_kept| *is_kept),
+            ..Self::with_kept(start, predicted, kept, prescribed)
+        }
     }
 
     fn in_roles(
@@ -91,6 +114,7 @@ impl Selection {
             worn: [Vec::new(), Vec::new()],
             slip_freedoms: Vec::new(),
             fitted: None,
+            has_yielded: false,
         }
     }
 }

@@ -10,7 +10,7 @@ use super::{
     fault::{FaultKind, Faults},
     imposed::{Imposed, prescribed},
     numbers::Numbers,
-    restriction::restrict,
+    restriction::{chosen, restrict},
     shape,
     state::State,
 };
@@ -21,7 +21,7 @@ use crate::{
     evaluation::{Collapse, evaluate},
     pair_state::{Predicted, fit},
     segment::Derivatives,
-    selection::Selection,
+    selection::{Kept, Selection},
     side::Side,
     texture::CollapsedTexture,
     unknowns::Tractions,
@@ -63,15 +63,13 @@ impl Increment {
         let imposed = imposed.completed(contact, state)?;
         let prescribed = prescribed(contact, &imposed.prescribed);
         let ends = (state, &imposed);
-        let of_pair = |pair: usize| {
-            let start = contact.configuration(pair, &state.positions, &state.placements);
-            let predicted = (!imposed.predicted.is_empty())
-                .then(|| contact.configuration(pair, &imposed.predicted, &imposed.placements));
-            let kept = &state.pairs[pair].kept;
-            Selection::new(&start, predicted.as_ref(), kept, &prescribed[pair])
-        };
-        let mut selections: Vec<Selection> = (0..contact.pair_count()).map(of_pair).collect();
         let start = |pair| contact.configuration(pair, &state.positions, &state.placements);
+        let predicted = |pair| {
+            (!imposed.predicted.is_empty())
+                .then(|| contact.configuration(pair, &imposed.predicted, &imposed.placements))
+        };
+        let before: Vec<&Kept> = state.pairs.iter().map(|pair| &pair.kept).collect();
+        let mut selections = chosen(contact, ends, (&start, &predicted), &before, &prescribed);
         let nodes: Vec<_> = state.pairs.iter().map(|pair| &pair.nodes).collect();
         restrict(contact, ends, &mut selections, start, &nodes);
         let started = state.pairs.iter().zip(&selections);
@@ -221,7 +219,18 @@ impl Increment {
         }
         missed.sort_unstable();
         missed.dedup();
-        Ok(missed)
+        let gains = || {
+            let again = self.reselected(evaluated)?;
+            let mut fields = again.selections.iter().zip(&self.selections).enumerate();
+            Ok(fields.any(|(pair, (has, had))| {
+                has.gains_on(had, &self.at_start(pair), &self.at(pair, &evaluated.x))
+            }))
+        };
+        // What other pairs hold gets no share, however often it is offered one.
+        match missed.is_empty() || gains()? {
+            true => Ok(missed),
+            false => Ok(Vec::new()),
+        }
     }
 
     /// The increment with the nodes that an evaluation shows to be needed; its unknowns are
@@ -232,19 +241,22 @@ impl Increment {
     pub fn reselected(&self, evaluated: &Evaluated) -> Result<Self, Faults> {
         self.own(evaluated, "evaluated")?;
         let (contact, x) = (&self.contact, &evaluated.x);
-        let mut selections = Vec::with_capacity(self.selections.len());
-        let mut tractions = evaluated.tractions.clone();
-        for (pair, had) in self.selections.iter().enumerate() {
-            let kept = had.kept_nodes();
-            let ends = [self.at_start(pair), self.at(pair, x)];
-            let selection = Selection::new(&ends[0], Some(&ends[1]), &kept, &self.prescribed[pair]);
-            let carried = &evaluated.pairs[pair].carried;
-            fit(&selection, &kept, carried, &mut tractions[pair]);
-            selections.push(selection);
-        }
-        let nodes: Vec<_> = evaluated.pairs.iter().map(|of| &of.nodes).collect();
         let ends = (&self.start, &self.imposed);
         let latest = |pair| self.at(pair, x);
+        let had: Vec<Kept> = self.selections.iter().map(Selection::kept_nodes).collect();
+        let mut selections = chosen(
+            contact,
+            ends,
+            (&|pair| self.at_start(pair), &|pair| Some(latest(pair))),
+            &had.iter().collect::<Vec<_>>(),
+            &self.prescribed,
+        );
+        let mut tractions = evaluated.tractions.clone();
+        for (pair, tractions) in tractions.iter_mut().enumerate() {
+            let carried = &evaluated.pairs[pair].carried;
+            fit(&selections[pair], &had[pair], carried, tractions);
+        }
+        let nodes: Vec<_> = evaluated.pairs.iter().map(|of| &of.nodes).collect();
         restrict(contact, ends, &mut selections, latest, &nodes);
         Ok(Self {
             numbers: numbers(contact, &selections),

@@ -6,7 +6,10 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen, Vector2};
 use striae_mesh::Vec3;
 
 use super::DETERMINED;
-use crate::slip_freedom::SlipFreedom;
+use crate::{
+    moved_pair::{Column, product},
+    slip_freedom::SlipFreedom,
+};
 
 /// Difference of eigenvalues below which the first of two nodes goes first, over them.
 const EQUAL: f64 = 1e-9;
@@ -17,9 +20,6 @@ const APART: f64 = 1e-12;
 /// Addition to the diagonal of what is eliminated first, over its largest entry, for pressures
 /// that depend on each other.
 const DEPENDENT: f64 = 1e-10;
-
-/// Action of an unknown on nodes, by their numbers.
-pub(super) type Column = BTreeMap<u32, Vec3>;
 
 /// A kept node in the contest.
 pub(super) struct Node {
@@ -39,14 +39,6 @@ impl Node {
             _ => SlipFreedom::Plane,
         }
     }
-}
-
-/// Product of two columns.
-pub(super) fn product(a: &Column, b: &Column) -> f64 {
-    let common = a
-        .iter()
-        .filter_map(|(number, a)| Some(a.dot(b.get(number)?)));
-    common.sum()
 }
 
 /// Sum of the columns of both tangents along a direction.

@@ -46,6 +46,8 @@ pub struct Selection {
     pub slip_freedoms: Vec<SlipFreedom>,
     /// Faces that are taken as touching, and how much they interfere.
     pub fitted: Option<Fitted>,
+    /// All of its nodes went to other pairs.
+    pub has_yielded: bool,
 }
 
 impl Selection {
@@ -262,5 +264,17 @@ impl Selection {
         left_out.sort_unstable();
         left_out.dedup();
         left_out
+    }
+
+    /// Returns whether nodes that have met and that a field chosen before leaves out are worth this
+    /// one instead: not if all of its nodes went to other pairs, which hold what has met.
+    pub fn gains_on(
+        &self,
+        before: &Self,
+        start: &Configuration,
+        configuration: &Configuration,
+    ) -> bool {
+        let is_same = self.has_yielded && before.basis.kept.is_empty();
+        !is_same && !before.left_out(start, configuration).is_empty()
     }
 }

@@ -165,15 +165,13 @@ impl Attempt<'_> {
         for repetition in 0.. {
             assembled = self.converge(assembled, workspace, observer)?;
             flown(&self.setting(), &self.trial).map_or(Ok(()), Err)?;
-            let missed = missed(&self.setting(), &self.trial);
-            let Some(reason) = missed else {
+            let Some((reason, found)) = self.missed(&assembled) else {
                 break;
             };
             // Selections could alternate for ever between two sets of nodes.
             if repetition == REPETITIONS {
                 return Err(reason);
             }
-            let found = reselected(&self.setting(), &self.trial, &assembled.contacts);
             assembled = self.taken_up(found, workspace)?;
         }
         // Only at the end: trial states on the way may pass through each other without harm.
@@ -345,9 +343,17 @@ impl Attempt<'_> {
         if number > 1 {
             return None;
         }
+        self.missed(assembled).map(|(_, found)| found)
+    }
+
+    /// Nodes without a share in the traction fields that have met the other surface, and the fields
+    /// chosen again with them; `None` where these are the same, as other pairs hold what met.
+    fn missed(&self, assembled: &Assembled) -> Option<(CutBack, Selected)> {
         let setting = self.setting();
-        let comes = missed(&setting, &self.trial).is_some();
-        comes.then(|| reselected(&setting, &self.trial, &assembled.contacts))
+        let reason = missed(&setting, &self.trial)?;
+        let found = reselected(&setting, &self.trial, &assembled.contacts);
+        let gains = found.gains(&setting, &self.trial);
+        gains.then_some((reason, found))
     }
 
     /// Goes on with another traction field.

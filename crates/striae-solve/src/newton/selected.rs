@@ -2,12 +2,14 @@
 //! from.
 
 use striae_contact::{
+    common_pivots::{Competitor, independent},
     configuration::Configuration,
-    directions::{Mover, Party, slip_freedoms},
+    directions::{Party, slip_freedoms},
     evaluation::Evaluation,
+    moved_pair::{MovedPair, Mover},
     pair_state::{PairState, Predicted, fit},
     placement::Placement,
-    selection::{Selection, deepest},
+    selection::{Kept, Selection, deepest},
     side::Side,
     unknowns::{NodeResult, Status, Tractions},
 };
@@ -24,6 +26,19 @@ use crate::{
 pub(super) struct Selected {
     pub(super) selections: Vec<Selection>,
     pub(super) tractions: Vec<Tractions>,
+}
+
+impl Selected {
+    /// Returns whether these fields carry something in a trial state that those before do not.
+    pub(super) fn gains(&self, setting: &Setting, trial: &Trial) -> bool {
+        let (context, state) = (setting.context, setting.state);
+        let fields = setting.selections.iter().zip(&self.selections).enumerate();
+        fields.into_iter().any(|(pair, (had, has))| {
+            let start = context.configuration(pair, &state.positions, &state.rigid);
+            let latest = context.configuration(pair, &trial.positions, &trial.rigid);
+            has.gains_on(had, &start, &latest)
+        })
+    }
 }
 
 /// The fields in the converged state. A node that was not kept starts with the old field.
@@ -68,76 +83,143 @@ fn without_freedoms(
         // The strategy of Table 1 predicts stick in every increment.
         Strategy::Table1 { .. } => Predicted::Stick,
     };
-    let (selections, tractions) = state
+    let worn: Vec<_> = state
         .pairs
         .iter()
-        .enumerate()
-        .map(|(pair, of_pair)| {
-            let wears = context.pairs[pair].wears();
-            // Other pairs may have worn its surfaces.
-            let worn = match deepest(&of_pair.tractions.worn) > 0.0 {
-                true => of_pair.tractions.worn.clone(),
-                false => [Vec::new(), Vec::new()],
-            };
-            let start = context.configuration(pair, &state.positions, &state.rigid);
-            let start = start.worn(deepest(&worn));
-            let prescribed = &context.fixed_on_pair[pair];
-            let chosen = match given {
-                None => Selection::new(&start, None, &of_pair.kept, prescribed),
-                Some(given) => Selection::with_kept(&start, &given[pair].kept, prescribed),
-            };
-            let selection = Selection {
-                offsets: context.offsets_left(pair, s),
-                fitted: context.fitted(pair, s),
-                worn,
-                ..chosen
-            };
-            let mut tractions = of_pair.started(&selection, predicted);
-            if wears {
-                press(&selection, &of_pair.carried, &mut tractions);
-            }
-            (selection, tractions)
+        // Other pairs may have worn its surfaces.
+        .map(|pair| match deepest(&pair.tractions.worn) > 0.0 {
+            true => pair.tractions.worn.clone(),
+            false => [Vec::new(), Vec::new()],
         })
-        .unzip();
+        .collect();
+    let start = |pair: usize| {
+        let start = context.configuration(pair, &state.positions, &state.rigid);
+        start.worn(deepest(&worn[pair]))
+    };
+    let of_pair = |(pair, before): (usize, &PairState)| {
+        let prescribed = &context.fixed_on_pair[pair];
+        let chosen = match given {
+            None => Selection::new(&start(pair), None, &before.kept, prescribed),
+            Some(given) => Selection::with_kept(&start(pair), None, &given[pair].kept, prescribed),
+        };
+        Selection {
+            offsets: context.offsets_left(pair, s),
+            fitted: context.fitted(pair, s),
+            worn: worn[pair].clone(),
+            ..chosen
+        }
+    };
+    let mut selections: Vec<Selection> = state.pairs.iter().enumerate().map(of_pair).collect();
+    if given.is_none() {
+        let before: Vec<_> = state.pairs.iter().map(|pair| (&pair.kept, false)).collect();
+        compete(context, &mut selections, &before, start, |_| None);
+    }
+    let fields = selections.iter().zip(&state.pairs).enumerate();
+    let tractions = fields.map(|(pair, (selection, of_pair))| {
+        let mut tractions = of_pair.started(selection, predicted);
+        if context.pairs[pair].wears() {
+            press(selection, &of_pair.carried, &mut tractions);
+        }
+        tractions
+    });
     Selected {
+        tractions: tractions.collect(),
         selections,
-        tractions,
+    }
+}
+
+/// Takes nodes out of the fields where several pairs hold the same positions; by pair, `before`
+/// tells the nodes kept in the last increment, and whether they are settled.
+fn compete<'a>(
+    context: &'a StepContext,
+    selections: &mut [Selection],
+    before: &[(&Kept, bool)],
+    start: impl Fn(usize) -> Configuration<'a>,
+    predicted: impl Fn(usize) -> Option<Configuration<'a>>,
+) {
+    let pairs = 0..selections.len();
+    if pairs.len() == 1 {
+        return;
+    }
+    let latest = |pair| predicted(pair).unwrap_or_else(|| start(pair));
+    let configurations: Vec<_> = pairs.clone().map(latest).collect();
+    let competitor = |pair: usize| Competitor {
+        moved: MovedPair {
+            configuration: &configurations[pair],
+            selection: &selections[pair],
+            movers: Side::BOTH.map(|side| movers(context, None, pair, side)),
+        },
+        before: before[pair].0,
+        is_settled: before[pair].1,
+    };
+    let remaining = independent(&pairs.map(competitor).collect::<Vec<_>>());
+    for (pair, kept) in remaining.iter().enumerate() {
+        if let Some(kept) = kept {
+            let prescribed = &context.fixed_on_pair[pair];
+            let predicted = predicted(pair);
+            selections[pair] =
+                selections[pair].keeping(&start(pair), predicted.as_ref(), kept, prescribed);
+        }
     }
 }
 
 /// The fields chosen again with the contacts of a trial state. Pairs that carry all that met keep
 /// theirs: what happens in one does not bear on the discretisation of another.
 pub(super) fn reselected(setting: &Setting, trial: &Trial, contacts: &[Evaluation]) -> Selected {
-    let (mut selections, tractions): (Vec<_>, Vec<_>) = with_configurations(setting, trial)
-        .enumerate()
-        .map(|(pair, (start, latest))| {
-            let had = &setting.selections[pair];
-            let mut tractions = trial.tractions[pair].clone();
-            if had.left_out(&start, &latest).is_empty() {
-                // Directions of friction depend on the fields of all pairs.
-                let slip_freedoms = Vec::new();
-                let selection = Selection {
-                    slip_freedoms,
-                    ..had.clone()
-                };
-                return (selection, tractions);
-            }
-            let kept = had.kept_nodes();
-            let prescribed = &setting.context.fixed_on_pair[pair];
-            let worn = deepest(&had.worn);
-            let (start, latest) = (start.worn(worn), latest.worn(worn));
-            let selection = Selection {
-                offsets: had.offsets.clone(),
-                fitted: had.fitted.clone(),
-                worn: had.worn.clone(),
-                ..Selection::new(&start, Some(&latest), &kept, prescribed)
-            };
-            fit(&selection, &kept, &contacts[pair].carried, &mut tractions);
-            (selection, tractions)
-        })
-        .unzip();
     let context = setting.context;
+    let start = |pair: usize| {
+        let (state, worn) = (setting.state, deepest(&setting.selections[pair].worn));
+        let start = context.configuration(pair, &state.positions, &state.rigid);
+        start.worn(worn)
+    };
     let latest = |pair| context.configuration(pair, &trial.positions, &trial.rigid);
+    let latest_worn = |pair: usize| latest(pair).worn(deepest(&setting.selections[pair].worn));
+    let had: Vec<Kept> = setting
+        .selections
+        .iter()
+        .map(Selection::kept_nodes)
+        .collect();
+    let carries_all = |(pair, had): (usize, &Selection)| {
+        // The search adds what has worn by itself.
+        let state = setting.state;
+        let start = context.configuration(pair, &state.positions, &state.rigid);
+        had.left_out(&start, &latest(pair)).is_empty()
+    };
+    let pairs = setting.selections.iter().enumerate();
+    let settled: Vec<bool> = pairs.clone().map(carries_all).collect();
+    let again = |(pair, of): (usize, &Selection)| match settled[pair] {
+        // Directions of friction depend on the fields of all pairs.
+        true => Selection {
+            slip_freedoms: Vec::new(),
+            ..of.clone()
+        },
+        false => Selection {
+            offsets: of.offsets.clone(),
+            fitted: of.fitted.clone(),
+            worn: of.worn.clone(),
+            ..Selection::new(
+                &start(pair),
+                Some(&latest_worn(pair)),
+                &had[pair],
+                &context.fixed_on_pair[pair],
+            )
+        },
+    };
+    let mut selections: Vec<Selection> = pairs.map(again).collect();
+    let before: Vec<_> = had.iter().zip(settled.iter().copied()).collect();
+    let worn = |pair| Some(latest_worn(pair));
+    compete(context, &mut selections, &before, start, worn);
+    let mut tractions = trial.tractions.clone();
+    for (pair, tractions) in tractions.iter_mut().enumerate() {
+        if !settled[pair] {
+            fit(
+                &selections[pair],
+                &had[pair],
+                &contacts[pair].carried,
+                tractions,
+            );
+        }
+    }
     let nodes: Vec<_> = contacts.iter().map(|contact| &contact.nodes).collect();
     let ends = (setting.state, setting.imposed);
     restrict(context, ends, &mut selections, latest, &nodes);
@@ -171,9 +253,11 @@ fn restrict<'a>(
     let configurations: Vec<_> = pairs.clone().map(configuration).collect();
     let motions = context.imposed_motions(ends.0, ends.1);
     let party = |pair: usize| Party {
-        configuration: &configurations[pair],
-        selection: &selections[pair],
-        movers: Side::BOTH.map(|side| movers(context, &motions, pair, side)),
+        moved: MovedPair {
+            configuration: &configurations[pair],
+            selection: &selections[pair],
+            movers: Side::BOTH.map(|side| movers(context, Some(&motions), pair, side)),
+        },
         placements: placements(context, ends, pair),
         closed: {
             let kept = selections[pair].kept().iter();
@@ -191,8 +275,8 @@ fn restrict<'a>(
     }
 }
 
-/// The nodes of a side; none of a rigid one.
-fn movers(context: &StepContext, motions: &[Vec3], pair: usize, side: Side) -> Vec<Mover> {
+/// The nodes of a side; none of a rigid one. Without motions they are unknown.
+fn movers(context: &StepContext, motions: Option<&[Vec3]>, pair: usize, side: Side) -> Vec<Mover> {
     let of_pair = &context.fixed_on_pair[pair];
     let prescribed = of_pair.components[side].chunks(3).enumerate();
     let mover = |(node, prescribed): (usize, &[bool])| {
@@ -205,7 +289,7 @@ fn movers(context: &StepContext, motions: &[Vec3], pair: usize, side: Side) -> V
             number: global.0 as u32,
             prescribed,
             axes: of_pair.axes[side].get(&node.index()).copied(),
-            motion: (own == prescribed).then(|| motions[global.0]),
+            motion: motions.filter(|_| own == prescribed).map(|of| of[global.0]),
         })
     };
     prescribed.filter_map(mover).collect()
@@ -223,19 +307,6 @@ fn placements(
     let end = imposed.before[rigid].moved_to(&known?.try_into().ok()?);
     let reference = &problem.model.rigid_surfaces[rigid].reference;
     Some([&state.rigid[rigid], &end].map(|pose| pose.placement(reference)))
-}
-
-/// Configurations of all pairs at the start and in a trial state.
-fn with_configurations<'a>(
-    setting: &'a Setting,
-    trial: &'a Trial,
-) -> impl Iterator<Item = (Configuration<'a>, Configuration<'a>)> {
-    let (context, state) = (setting.context, setting.state);
-    (0..context.pairs.len()).map(move |pair| {
-        let start = context.configuration(pair, &state.positions, &state.rigid);
-        let latest = context.configuration(pair, &trial.positions, &trial.rigid);
-        (start, latest)
-    })
 }
 
 /// Gives kept nodes the pressure that acts on them: what wore in the increment before had a part in

@@ -25,6 +25,7 @@ mod round_off;
 mod sections;
 mod self_contact;
 mod self_contact_at_random;
+mod shared_positions;
 mod skins;
 mod sliding;
 mod stabilised;

@@ -1,0 +1,175 @@
+//! Pairs that hold the same positions: faces of one body that stand on one surface in two pairs.
+
+use striae_contact::side::Side;
+use striae_mesh::Face;
+use striae_solve::{
+    model::{ContactSurface, Curve, LoadExtent, LoadKind, Model, Pair},
+    outcome::Ending,
+    report::pairs,
+    state::State,
+};
+
+use crate::scene::{
+    Places, Run, block, body, coulomb, increments, model, plane, pressed_on_plane, rubber, step,
+};
+
+/// Divides the first pair in two, by what is left of `border` on a side.
+fn divided(mut model: Model, side: Side, border: f64) -> Model {
+    let whole = model.pairs.remove(0);
+    let surfaces = [&whole.a, &whole.b];
+    let ContactSurface::Deformable { body, faces } = surfaces[side.index()] else {
+        panic!("the side deforms");
+    };
+    let mesh = &model.bodies[body.0].mesh;
+    let is_left = |face: &Face| {
+        let nodes = mesh.face_nodes(*face);
+        nodes
+            .map(|node| mesh.positions[node.index()].x)
+            .iter()
+            .sum::<f64>()
+            < 4.0 * border
+    };
+    let parts = [true, false].map(|left| {
+        let faces = faces.iter().copied().filter(|face| is_left(face) == left);
+        let part = ContactSurface::Deformable {
+            body: *body,
+            faces: faces.collect(),
+        };
+        let mut pair = Pair {
+            name: if left { "left" } else { "right" }.to_owned(),
+            ..whole.clone()
+        };
+        match side {
+            Side::A => pair.a = part,
+            Side::B => pair.b = part,
+        }
+        pair
+    });
+    model.pairs = parts.into();
+    model
+}
+
+/// Sum of the forces on side `a` and largest pressure in all states but the first.
+fn forces(run: &Run) -> Vec<([f64; 3], f64)> {
+    let of_state = |state: &State| {
+        let of_pairs = pairs(&run.problem, state);
+        let force: striae_mesh::Vec3 = of_pairs.iter().map(|pair| pair.sides[0].force).sum();
+        let nodes = state
+            .pairs
+            .iter()
+            .flat_map(|pair| pair.nodes.iter().flatten());
+        let largest = nodes.map(|node| node.pressure).fold(0.0, f64::max);
+        (force.into(), largest)
+    };
+    run.states[1..].iter().map(of_state).collect()
+}
+
+/// Asserts that a run completes without cuts.
+fn run(model: Model) -> Run {
+    let run = Run::of(model);
+    assert_eq!(run.ending, Ending::Completed, "{}", run.ending);
+    assert!(run.cuts.is_empty(), "{:?}", run.cuts);
+    run
+}
+
+/// A block pressed on a plane and slid, its top without rotation: pressures are far from uniform.
+fn on_plane(divisions: [usize; 3]) -> Model {
+    let mesh = block([0.0; 3], [1.0, 1.0, 0.5], divisions).mesh().unwrap();
+    let mut model = pressed_on_plane(mesh, 0.3);
+    let mut slide = step();
+    slide.displacements = vec![model.hold("block", "zmax", [Some(0.05), Some(0.0), Some(-0.02)])];
+    slide.increments = increments(0.2, 0.05);
+    model.steps.push(slide);
+    model
+}
+
+#[test]
+fn two_pairs_on_one_plane_are_as_one() {
+    for divisions in [[4, 4, 2], [6, 3, 2]] {
+        let [one, two] = [
+            on_plane(divisions),
+            divided(on_plane(divisions), Side::A, 0.5),
+        ]
+        .map(|model| forces(&run(model)));
+        for ((one, most), (two, most_of_two)) in one.iter().zip(&two) {
+            let size = one[2].abs();
+            for (one, two) in one.iter().zip(two) {
+                assert!(
+                    (one - two).abs() < 1e-2 * size,
+                    "{divisions:?}: {one} and {two}"
+                );
+            }
+            assert!(
+                (most_of_two / most - 1.0).abs() < 0.25,
+                "{most} and {most_of_two}"
+            );
+        }
+    }
+}
+
+#[test]
+fn uniform_pressure_stays_uniform_in_two_pairs_on_one_plane() {
+    let mesh = block([0.0; 3], [1.0, 1.0, 0.5], [4, 4, 2]).mesh().unwrap();
+    let mut model = model(vec![body("block", mesh, rubber(1.0, 0.0))]);
+    let floor = plane([0.0; 3], [0.0, 0.0, 1.0]);
+    model.touch_rigid(("block", "zmin"), floor, coulomb(0.0));
+    let mut press = step();
+    let load = LoadKind::Pressure(0.02);
+    press.loads = vec![model.load("block", "zmax", load, LoadExtent::Whole)];
+    press.displacements = vec![model.hold("block", "zmax", [Some(0.0), Some(0.0), None])];
+    model.steps = vec![press];
+    let run = run(divided(model, Side::A, 0.5));
+    let nodes = run.last().pairs.iter().flat_map(|pair| &pair.nodes[0]);
+    let pressures: Vec<f64> = nodes
+        .map(|node| node.pressure)
+        .filter(|p| *p != 0.0)
+        .collect();
+    assert!(pressures.len() >= 25);
+    for p in pressures {
+        assert!((p / 0.02 - 1.0).abs() < 1e-9, "{p}");
+    }
+}
+
+/// A block whose end lies by `over` beyond the border between facets of a floor, at 1.
+fn beyond_the_border(over: f64) -> Model {
+    let stands = block([over, 0.0, 0.0], [1.0, 1.0, 0.2], [1, 1, 1])
+        .mesh()
+        .unwrap();
+    let floor = block([-1.0, -0.5, -0.2], [4.0, 2.0, 0.2], [8, 4, 1]).mesh();
+    let bodies = [("block", stands), ("floor", floor.unwrap())];
+    let bodies = bodies.map(|(name, mesh)| body(name, mesh, rubber(1e3, 0.3)));
+    let mut model = model(bodies.into());
+    model.touch(("block", "zmin"), ("floor", "zmax"), coulomb(0.4));
+    let mut press = step();
+    let load = LoadKind::Pressure(1.0);
+    press.loads = vec![model.load("block", "zmax", load, LoadExtent::Whole)];
+    press.displacements = vec![
+        model.hold("floor", "zmin", [Some(0.0); 3]),
+        model.hold("block", "zmax", [Some(0.0), Some(0.0), None]),
+    ];
+    let mut slide = step();
+    slide.loads.clone_from(&press.loads);
+    slide.loads[0].curve = Curve::Constant;
+    slide.displacements = vec![
+        model.hold("floor", "zmin", [Some(0.0); 3]),
+        model.hold("block", "zmax", [Some(0.2), Some(0.0), None]),
+    ];
+    slide.increments = increments(0.2, 0.05);
+    model.steps = vec![press, slide];
+    model
+}
+
+#[test]
+fn a_strip_in_the_next_pair_takes_no_more_pressure_than_what_lies_beside_it() {
+    for over in [1e-3, 0.01, 0.1] {
+        let one = beyond_the_border(over);
+        let two = divided(beyond_the_border(over), Side::B, 1.0);
+        let [(one, most), (two, most_of_two)] = [one, two].map(|model| {
+            let run = Run::of(model);
+            assert_eq!(run.ending, Ending::Completed, "{}", run.ending);
+            *forces(&run).last().unwrap()
+        });
+        assert!((one[2] - two[2]).abs() < 1e-6 * one[2].abs());
+        assert!(most_of_two < 2.5 * most, "{over}: {most_of_two} for {most}");
+    }
+}
