@@ -102,6 +102,8 @@ number! {
     Positive [Bound::Above(0.0)]
     /// A number of at least zero.
     NonNegative [Bound::AtLeast(0.0)]
+    /// A part of a whole, which may be nothing.
+    Portion [Bound::AtLeast(0.0), Bound::AtMost(1.0)]
     /// A part of a whole.
     Fraction [Bound::Above(0.0), Bound::AtMost(1.0)]
     /// An angle in degrees up to that of a half turn.

@@ -7,14 +7,25 @@ use crate::write::value::{list, number, text};
 use std::collections::{BTreeMap, BTreeSet};
 use striae_meshfile::Keyword;
 
+/// Parameter of the method of Hilber, Hughes and Taylor for transient fidelity, the default of models
+/// without contact.
+const TRANSIENT: f64 = -0.05;
+/// Parameter for moderate dissipation, the default of models with contact: `1 - sqrt(2)`.
+const MODERATE: f64 = 1.0 - std::f64::consts::SQRT_2;
+
 /// Procedure of a step, without its conditions.
 struct Procedure {
     period: Period,
     /// First, smallest and largest increment as fractions of it.
     increments: [f64; 3],
-    is_dynamic: bool,
-    /// Parameter of the method of Hilber, Hughes and Taylor.
-    alpha: Option<f64>,
+    /// Spectral radius at infinite frequency of a dynamic step.
+    spectral_radius: Option<f64>,
+}
+
+impl Procedure {
+    fn is_dynamic(&self) -> bool {
+        self.spectral_radius.is_some()
+    }
 }
 
 impl<'a> Model<'a> {
@@ -114,7 +125,7 @@ impl<'a> Model<'a> {
                     "DSLOAD" => self.surface_loads(keyword, period, &mut stated),
                     "DLOAD" => self.body_loads(keyword, period, &mut stated),
                     "INITIAL CONDITIONS" => {
-                        self.initial_conditions(keyword, procedure.is_dynamic, &mut stated);
+                        self.initial_conditions(keyword, procedure.is_dynamic(), &mut stated);
                     }
                     _ => {}
                 }
@@ -153,8 +164,17 @@ impl<'a> Model<'a> {
         }
         self.used.insert(keyword.line);
         // Solvers and tolerances of the increments change no meaning.
-        let known = ["DIRECT", "CETOL", "SOLVER", "HAFTOL", "NOHAF", "ALPHA"];
+        let known = [
+            "DIRECT",
+            "CETOL",
+            "SOLVER",
+            "HAFTOL",
+            "NOHAF",
+            "ALPHA",
+            "APPLICATION",
+        ];
         self.list_parameters(keyword, &known);
+        let spectral_radius = is_dynamic.then(|| self.spectral_radius(keyword));
         let row = keyword.rows.first();
         let row = row.and_then(|row| numbers(&row.words)).unwrap_or_default();
         let at = |at: usize| row.get(at).copied().filter(|value| *value > 0.0);
@@ -169,7 +189,7 @@ impl<'a> Model<'a> {
         let amplitude = within[0].parameter("AMPLITUDE");
         let at_once = match amplitude {
             Some(word) => word.eq_ignore_ascii_case("STEP"),
-            None => is_dynamic,
+            None => is_dynamic && !has(keyword, "APPLICATION", "QUASI-STATIC"),
         };
         Some(Procedure {
             period: Period {
@@ -179,12 +199,45 @@ impl<'a> Model<'a> {
                 line: within[0].line,
             },
             increments: [first, smallest, largest].map(|size| size / duration),
-            is_dynamic,
-            alpha: keyword
-                .parameter("ALPHA")
-                .and_then(striae_meshfile::finite)
-                .filter(|alpha| (-0.5..=0.0).contains(alpha)),
+            spectral_radius,
         })
+    }
+
+    /// Spectral radius at infinite frequency of a `*DYNAMIC`: that of the method of Hilber, Hughes
+    /// and Taylor with its `alpha`, and of the backward Euler method in quasi-static applications.
+    fn spectral_radius(&mut self, keyword: &Keyword<'_>) -> f64 {
+        let application = keyword.parameter("APPLICATION").map(str::to_uppercase);
+        let usual = match application.as_deref() {
+            Some("QUASI-STATIC") => return 0.0,
+            Some("TRANSIENT FIDELITY") => TRANSIENT,
+            Some("MODERATE DISSIPATION") => MODERATE,
+            other => {
+                if let Some(word) = other {
+                    let what = format!("*DYNAMIC: APPLICATION of `{word}`");
+                    self.list(keyword.line, what);
+                }
+                let is_contact =
+                    |other: &Keyword<'_>| matches!(&*other.name, "CONTACT" | "CONTACT PAIR");
+                match self.keywords.iter().any(is_contact) {
+                    true => MODERATE,
+                    false => TRANSIENT,
+                }
+            }
+        };
+        let alpha = match keyword.parameter("ALPHA") {
+            None => usual,
+            Some(word) => {
+                let stated = striae_meshfile::finite(word);
+                let stated = stated.filter(|alpha| (-0.5..=0.0).contains(alpha));
+                if stated.is_none() {
+                    let what =
+                        format!("*DYNAMIC: ALPHA of `{word}`, which is not between -0.5 and 0");
+                    self.list(keyword.line, what);
+                }
+                stated.unwrap_or(usual)
+            }
+        };
+        (1.0 + alpha) / (1.0 - alpha)
     }
 
     /// Lists the first step that takes displacements as small.
@@ -242,11 +295,9 @@ impl<'a> Model<'a> {
             text(name),
             number(procedure.period.duration)
         );
-        if procedure.is_dynamic {
-            // Both methods have this spectral radius at infinite frequency.
-            let radius = procedure.alpha.map(|alpha| (1.0 + alpha) / (1.0 - alpha));
-            let radius = radius.map(|radius| format!(" spectral_radius = {} ", number(radius)));
-            table += &format!("dynamics = {{{}}}\n", radius.unwrap_or_default());
+        if let Some(radius) = procedure.spectral_radius {
+            let radius = number(radius);
+            table += &format!("dynamics = {{ spectral_radius = {radius} }}\n");
         }
         if let Some(gravity) = stated.gravity() {
             table += &format!("gravity = {gravity}\n");

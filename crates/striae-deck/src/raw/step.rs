@@ -8,7 +8,7 @@ use crate::{
     faults::FaultList,
     form::Form,
     read::{At, Place, Read, Value, read_table, unexpected},
-    value::{Count, Fraction, Number, Positive, Prose, Text, Varying, Whole},
+    value::{Count, Fraction, Number, Portion, Positive, Prose, Text, Varying, Whole},
 };
 use toml::de::DeValue;
 
@@ -116,7 +116,7 @@ table! {
     /// Implicit dynamics by the generalised-alpha method.
     Dynamics {
         /// Spectral radius at infinite frequency: 1 keeps oscillations that the increments do not resolve, small values damp them. Default: 0.8.
-        optional spectral_radius: Fraction,
+        optional spectral_radius: Portion,
     }
 }
 

@@ -28,17 +28,44 @@ fn small_displacements_are_told_once() {
     assert_listed(&listed, &["*STEP without NLGEOM"]);
 }
 
-#[test]
-fn implicit_dynamics_has_the_spectral_radius_of_its_alpha() {
-    let (_, listed, deck) = converted(&model("", &STEP.replace("*STATIC", "*DYNAMIC, ALPHA=-0.2")));
-    assert_listed(&listed, &[]);
+/// Keywords of a pair in contact.
+const PAIR: &str =
+    "*SURFACE INTERACTION, NAME=Fric\n*FRICTION\n0.2\n*CONTACT PAIR, INTERACTION=Fric
+Pad-1.Bottom, Base-1.Top
+";
+
+/// Returns lines that are listed of a `*DYNAMIC` with these parameters, and its spectral radius.
+fn dynamic(before: &str, parameters: &str) -> (Vec<String>, f64) {
+    let step = STEP.replace("*STATIC", &format!("*DYNAMIC{parameters}"));
+    let (_, listed, deck) = converted(&model("", &format!("{before}{step}")));
     let Procedure::Dynamic { spectral_radius } = deck.model.steps[0].procedure else {
         panic!("{:?}", deck.model.steps[0].procedure);
     };
-    assert!(
-        (spectral_radius - 0.8 / 1.2).abs() < 1e-15,
-        "{spectral_radius}"
+    (listed, spectral_radius)
+}
+
+#[test]
+fn implicit_dynamics_has_the_spectral_radius_of_its_alpha() {
+    let moderate = f64::sqrt(2.0) - 1.0;
+    for (before, parameters, radius) in [
+        ("", ", ALPHA=-0.2", 0.8 / 1.2),
+        ("", "", 0.95 / 1.05),
+        (PAIR, "", moderate),
+        ("", ", APPLICATION=MODERATE DISSIPATION", moderate),
+        (PAIR, ", APPLICATION=TRANSIENT FIDELITY", 0.95 / 1.05),
+        (PAIR, ", APPLICATION=QUASI-STATIC", 0.0),
+    ] {
+        let (listed, found) = dynamic(before, parameters);
+        assert_listed(&listed, &[]);
+        assert!((found - radius).abs() < 1e-15, "{parameters}: {found}");
+    }
+    let (listed, _) = dynamic("", ", ALPHA=-0.7");
+    assert_listed(
+        &listed,
+        &["*DYNAMIC: ALPHA of `-0.7`, which is not between -0.5 and 0"],
     );
+    let (listed, _) = dynamic("", ", APPLICATION=crash");
+    assert_listed(&listed, &["*DYNAMIC: APPLICATION of `CRASH`"]);
 }
 
 #[test]

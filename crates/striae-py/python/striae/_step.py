@@ -82,13 +82,13 @@ class Dynamics:
     def __init__(self, spectral_radius: float = 0.8) -> None:
         """Makes the settings.
 
-        spectral_radius: at infinite frequency, above 0 and at most 1 (no unit): 1 keeps
+        spectral_radius: at infinite frequency, from 0 to 1 (no unit): 1 keeps
             oscillations that the increments do not resolve, small values damp them.
         """
-        self.spectral_radius = check.positive(spectral_radius, "spectral_radius")
+        self.spectral_radius = check.number(spectral_radius, "spectral_radius")
         """Spectral radius at infinite frequency (no unit)."""
-        if self.spectral_radius > 1.0:
-            raise refuse("spectral_radius", f"it must be at most 1, but is {spectral_radius}")
+        if not 0.0 <= self.spectral_radius <= 1.0:
+            raise refuse("spectral_radius", f"it must be from 0 to 1, but is {spectral_radius}")
 
     def __repr__(self) -> str:
         return f"Dynamics({self.spectral_radius})"

@@ -226,7 +226,7 @@ fn algorithmic_loss(run: &Run, scheme: &Scheme, dt: f64) -> f64 {
 
 #[test]
 fn the_loss_of_a_linear_oscillation_is_that_of_the_method() {
-    for radius in [0.9, 0.5, 0.1] {
+    for radius in [0.9, 0.5, 0.0] {
         let mut model = beam(10.0);
         let constants = LameConstants::from_youngs_modulus(10.0, 0.3).unwrap();
         model.bodies[0].material = Material::linear_elastic(constants);
