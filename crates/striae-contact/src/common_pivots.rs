@@ -17,12 +17,14 @@
 //! d_k >= THETA_0 min(1, 4 S_kk)
 //! ```
 //!
-//! with twice the pivot for those kept in the last increment, as in the choice of a pair. `1/4` is
-//! the pivot of an interior node: one on the only sliver of a patch goes where others do what it
-//! does, not where it is small. A node that this rule would drop in its pair alone stays, as its own
-//! pair has decided on it. Pressures are vectors, so walls at right angles take nothing from each
-//! other. Nor do those of different pairs that push a body against each other: as no pressure is
-//! negative, neither can do what the other one does, and `S_kl` is zero where it would be negative.
+//! `1/4` is the pivot of an interior node: one on the only sliver of a patch goes where others do what
+//! it does, not where it is small. Nodes that touch come first, so that faces that are only near
+//! each other take nothing from what is pressed. Those kept in the last increment have no advantage,
+//! other than in the choice of a pair: a pair that is entered could keep none where one that is left
+//! had all of them. A node that this rule would drop in its pair alone stays, as its own pair has
+//! decided on it. Pressures are vectors, so walls at right angles take nothing from each other. Nor
+//! do those of different pairs that push a body against each other: as no pressure is negative,
+//! neither can do what the other one does, and `S_kl` is zero where it would be negative.
 //!
 //! Null vectors of a mass matrix fade by .27 from node to node: nodes further than two couplings
 //! from a shared one have no effect.
@@ -34,7 +36,7 @@ use striae_surface::node::SurfaceNode;
 
 use crate::{
     common_mass::{SparseRow, SparseSum},
-    contest::{Candidate, Contest, STAY, from_the_middle},
+    contest::{Candidate, Contest, from_the_middle},
     moved_pair::{Column, MovedPair},
     pair::Enforcement,
     pivots::Pivots,
@@ -46,27 +48,14 @@ use crate::{
 /// Couplings from a shared node to the last that count.
 const REACH: usize = 2;
 
-/// A pair whose kept nodes compete with those of others.
-pub struct Competitor<'a> {
-    /// The pair and the positions that it moves.
-    pub moved: MovedPair<'a>,
-    /// Nodes kept in the last increment.
-    pub before: &'a Kept,
-    /// All its nodes stay.
-    pub is_settled: bool,
-}
-
 /// Kept nodes that remain by pair; `None` for a pair that loses none.
-pub fn independent(pairs: &[Competitor]) -> Vec<Option<Kept>> {
+pub fn independent(pairs: &[MovedPair]) -> Vec<Option<Kept>> {
     if !share(pairs) {
         return vec![None; pairs.len()];
     }
     let nodes = nodes(pairs);
     let columns = Columns::new(nodes.iter().map(|node| &node.column));
-    let contested: BTreeSet<u32> = columns
-        .of_several(|k| nodes[k as usize].pair)
-        .filter(|&k| !pairs[nodes[k as usize].pair].is_settled)
-        .collect();
+    let contested: BTreeSet<u32> = columns.of_several(|k| nodes[k as usize].pair).collect();
     if contested.is_empty() {
         return vec![None; pairs.len()];
     }
@@ -78,18 +67,26 @@ pub fn independent(pairs: &[Competitor]) -> Vec<Option<Kept>> {
     }
     let chosen = |among: &BTreeSet<u32>, products: Vec<SparseRow>| -> BTreeSet<u32> {
         let mut pivots = Pivots::new(products);
-        let contest = contest(&nodes, among, &pivots);
-        near.difference(&contested).for_each(|&k| pivots.keep(k));
-        let kept = contest.greedy(&mut pivots);
-        kept.iter().map(|&(k, _)| k).collect()
+        let sizes: Vec<f64> = (0..nodes.len() as u32).map(|k| pivots.bound(k)).collect();
+        let mut kept = BTreeSet::new();
+        for touches in [true, false] {
+            let is_due = |&k: &u32| nodes[k as usize].touches == touches;
+            near.difference(&contested)
+                .copied()
+                .filter(is_due)
+                .for_each(|k| pivots.keep(k));
+            let due: Vec<u32> = among.iter().copied().filter(is_due).collect();
+            let won = contest(&nodes, &due, &sizes).greedy(&mut pivots);
+            kept.extend(won.iter().map(|&(k, _)| k));
+        }
+        kept
     };
     let alone = chosen(&contested, within_pairs(&nodes, &products));
     let kept = chosen(&alone, products);
     let mut remaining = vec![None; pairs.len()];
     for &k in alone.difference(&kept) {
         let Node { pair, kept, .. } = nodes[k as usize];
-        let of_pair =
-            remaining[pair].get_or_insert_with(|| pairs[pair].moved.selection.kept_nodes());
+        let of_pair = remaining[pair].get_or_insert_with(|| pairs[pair].selection.kept_nodes());
         of_pair[kept.side][kept.node] = false;
     }
     remaining
@@ -101,27 +98,28 @@ struct Node {
     kept: KeptNode,
     /// Position and weight.
     place: (Vec3, f64),
-    was_kept: bool,
+    /// A segment of it touches.
+    touches: bool,
     column: Column,
 }
 
 /// Kept nodes of the pairs that share the same nodes of bodies with others.
-fn nodes(pairs: &[Competitor]) -> Vec<Node> {
+fn nodes(pairs: &[MovedPair]) -> Vec<Node> {
     let mut nodes = Vec::new();
-    for (pair, of) in pairs.iter().enumerate().filter(|(_, of)| of.competes()) {
+    for (pair, of) in pairs.iter().enumerate().filter(|(_, of)| competes(of)) {
         let MovedPair {
             configuration,
             selection,
             ..
-        } = of.moved;
-        let kept = selection.kept().iter().enumerate().zip(of.moved.actions());
+        } = of;
+        let kept = selection.kept().iter().enumerate().zip(of.actions());
         nodes.extend(kept.map(|((k, kept), actions)| {
             let (side, node) = kept.place();
             Node {
                 pair,
                 kept: *kept,
                 place: (configuration.side(side).x[node], selection.weight(k)),
-                was_kept: of.before[side].get(node.index()).is_some_and(|kept| *kept),
+                touches: actions.touches,
                 column: actions.column(0),
             }
         }));
@@ -129,20 +127,18 @@ fn nodes(pairs: &[Competitor]) -> Vec<Node> {
     nodes
 }
 
-impl Competitor<'_> {
-    /// Returns whether its pressures are unknowns of a common field.
-    fn competes(&self) -> bool {
-        self.moved.configuration.pair.enforcement == Enforcement::Weighted
-    }
+/// Returns whether the pressures of a pair are unknowns of a common field.
+fn competes(pair: &MovedPair) -> bool {
+    pair.configuration.pair.enforcement == Enforcement::Weighted
 }
 
 /// Returns whether several pairs carry traction at a position, which is cheaper to find than actions.
-fn share(pairs: &[Competitor]) -> bool {
+fn share(pairs: &[MovedPair]) -> bool {
     let mut held_by = BTreeMap::new();
-    for (pair, of) in pairs.iter().enumerate().filter(|(_, of)| of.competes()) {
-        for &side in of.moved.configuration.pair.deformable_sides() {
-            for (node, mover) in of.moved.movers[side].iter().enumerate() {
-                let carries = of.moved.selection.carries(side, SurfaceNode::new(node));
+    for (pair, of) in pairs.iter().enumerate().filter(|(_, of)| competes(of)) {
+        for &side in of.configuration.pair.deformable_sides() {
+            for (node, mover) in of.movers[side].iter().enumerate() {
+                let carries = of.selection.carries(side, SurfaceNode::new(node));
                 if carries
                     && !mover.is_rigid()
                     && *held_by.entry(mover.number).or_insert(pair) != pair
@@ -223,16 +219,15 @@ impl<'a> Columns<'a> {
     }
 }
 
-/// Contest of some nodes, by pivots against which nothing has been kept yet.
-fn contest(nodes: &[Node], among: &BTreeSet<u32>, pivots: &Pivots) -> Contest {
-    let among: Vec<u32> = among.iter().copied().collect();
+/// Contest of some nodes, with the `S_kk` of all.
+fn contest(nodes: &[Node], among: &[u32], sizes: &[f64]) -> Contest {
     let of = |at: usize| &nodes[among[at] as usize];
     let places: Vec<_> = (0..among.len()).map(|at| of(at).place).collect();
     let order = from_the_middle(&places, |at| (of(at).pair, of(at).kept.place()));
     let candidate = |at: usize| Candidate {
         node: among[at],
-        factor: if of(at).was_kept { STAY } else { 1.0 },
-        least: THETA_0 * (pivots.bound(among[at]) / INTERIOR).min(1.0),
+        factor: 1.0,
+        least: THETA_0 * (sizes[among[at] as usize] / INTERIOR).min(1.0),
     };
     Contest::new(order.into_iter().map(candidate).collect())
 }

@@ -4,7 +4,7 @@ use striae_mesh::{NodeId, Vec3};
 
 use super::{contact::Contact, imposed::Imposed, numbers::nodes_of, state::State};
 use crate::{
-    common_pivots::{Competitor, independent},
+    common_pivots::independent,
     configuration::Configuration,
     directions::{Party, slip_freedoms},
     moved_pair::{MovedPair, Mover},
@@ -87,12 +87,8 @@ pub(super) fn chosen<'a>(
     let mut selections: Vec<Selection> = pairs.clone().map(alone).collect();
     let latest = |pair| predicted(pair).unwrap_or_else(|| start(pair));
     let moved = Moved::new(contact, ends, latest);
-    let competitor = |pair: usize| Competitor {
-        moved: moved.pair(pair, &selections[pair]),
-        before: before[pair],
-        is_settled: false,
-    };
-    let remaining = independent(&pairs.map(competitor).collect::<Vec<_>>());
+    let of_pair = |pair: usize| moved.pair(pair, &selections[pair]);
+    let remaining = independent(&pairs.map(of_pair).collect::<Vec<_>>());
     for (pair, kept) in remaining.iter().enumerate() {
         if let Some(kept) = kept {
             let predicted = predicted(pair);

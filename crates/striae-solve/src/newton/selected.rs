@@ -2,7 +2,7 @@
 //! from.
 
 use striae_contact::{
-    common_pivots::{Competitor, independent},
+    common_pivots::independent,
     configuration::Configuration,
     directions::{Party, slip_freedoms},
     evaluation::Evaluation,
@@ -111,8 +111,7 @@ fn without_freedoms(
     };
     let mut selections: Vec<Selection> = state.pairs.iter().enumerate().map(of_pair).collect();
     if given.is_none() {
-        let before: Vec<_> = state.pairs.iter().map(|pair| (&pair.kept, false)).collect();
-        compete(context, &mut selections, &before, start, |_| None);
+        compete(context, &mut selections, start, |_| None);
     }
     let fields = selections.iter().zip(&state.pairs).enumerate();
     let tractions = fields.map(|(pair, (selection, of_pair))| {
@@ -128,31 +127,26 @@ fn without_freedoms(
     }
 }
 
-/// Takes nodes out of the fields where several pairs hold the same positions; by pair, `before`
-/// tells the nodes kept in the last increment, and whether they are settled.
+/// Takes nodes out of the fields where several pairs hold the same positions, and tells of which
+/// pairs.
 fn compete<'a>(
     context: &'a StepContext,
     selections: &mut [Selection],
-    before: &[(&Kept, bool)],
     start: impl Fn(usize) -> Configuration<'a>,
     predicted: impl Fn(usize) -> Option<Configuration<'a>>,
-) {
+) -> Vec<bool> {
     let pairs = 0..selections.len();
     if pairs.len() == 1 {
-        return;
+        return vec![false];
     }
     let latest = |pair| predicted(pair).unwrap_or_else(|| start(pair));
     let configurations: Vec<_> = pairs.clone().map(latest).collect();
-    let competitor = |pair: usize| Competitor {
-        moved: MovedPair {
-            configuration: &configurations[pair],
-            selection: &selections[pair],
-            movers: Side::BOTH.map(|side| movers(context, None, pair, side)),
-        },
-        before: before[pair].0,
-        is_settled: before[pair].1,
+    let moved = |pair: usize| MovedPair {
+        configuration: &configurations[pair],
+        selection: &selections[pair],
+        movers: Side::BOTH.map(|side| movers(context, None, pair, side)),
     };
-    let remaining = independent(&pairs.map(competitor).collect::<Vec<_>>());
+    let remaining = independent(&pairs.map(moved).collect::<Vec<_>>());
     for (pair, kept) in remaining.iter().enumerate() {
         if let Some(kept) = kept {
             let prescribed = &context.fixed_on_pair[pair];
@@ -161,6 +155,7 @@ fn compete<'a>(
                 selections[pair].keeping(&start(pair), predicted.as_ref(), kept, prescribed);
         }
     }
+    remaining.iter().map(Option::is_some).collect()
 }
 
 /// The fields chosen again with the contacts of a trial state. Pairs that carry all that met keep
@@ -206,12 +201,11 @@ pub(super) fn reselected(setting: &Setting, trial: &Trial, contacts: &[Evaluatio
         },
     };
     let mut selections: Vec<Selection> = pairs.map(again).collect();
-    let before: Vec<_> = had.iter().zip(settled.iter().copied()).collect();
     let worn = |pair| Some(latest_worn(pair));
-    compete(context, &mut selections, &before, start, worn);
+    let yields = compete(context, &mut selections, start, worn);
     let mut tractions = trial.tractions.clone();
     for (pair, tractions) in tractions.iter_mut().enumerate() {
-        if !settled[pair] {
+        if !settled[pair] || yields[pair] {
             fit(
                 &selections[pair],
                 &had[pair],

@@ -1,9 +1,9 @@
 //! Pairs that hold the same positions: faces of one body that stand on one surface in two pairs.
 
 use striae_contact::side::Side;
-use striae_mesh::Face;
+use striae_mesh::{Face, NodeId, Vec3};
 use striae_solve::{
-    model::{ContactSurface, Curve, LoadExtent, LoadKind, Model, Pair},
+    model::{ContactSurface, Curve, LoadExtent, LoadKind, Model, Pair, RigidShape},
     outcome::Ending,
     report::pairs,
     state::State,
@@ -53,7 +53,7 @@ fn divided(mut model: Model, side: Side, border: f64) -> Model {
 fn forces(run: &Run) -> Vec<([f64; 3], f64)> {
     let of_state = |state: &State| {
         let of_pairs = pairs(&run.problem, state);
-        let force: striae_mesh::Vec3 = of_pairs.iter().map(|pair| pair.sides[0].force).sum();
+        let force: Vec3 = of_pairs.iter().map(|pair| pair.sides[0].force).sum();
         let nodes = state
             .pairs
             .iter()
@@ -171,5 +171,104 @@ fn a_strip_in_the_next_pair_takes_no_more_pressure_than_what_lies_beside_it() {
         });
         assert!((one[2] - two[2]).abs() < 1e-6 * one[2].abs());
         assert!(most_of_two < 2.5 * most, "{over}: {most_of_two} for {most}");
+    }
+}
+
+/// A rigid floor between two planes normal to x.
+fn rigid_floor(from: f64, to: f64) -> RigidShape {
+    let corners = [(from, -1.0), (to, -1.0), (to, 2.0), (from, 2.0)];
+    RigidShape::Facets {
+        positions: corners.map(|(x, y)| Vec3::new(x, y, 0.0)).into(),
+        facets: vec![[0, 1, 2, 3].map(NodeId::new)],
+    }
+}
+
+/// A block that is pressed by a prescribed depth, without friction and lateral strain, then slides
+/// from one rigid floor, up to x = 1.2, to the next.
+fn over_a_border(divisions: usize, to: f64, count: f64) -> Model {
+    let divisions = [divisions, divisions, 2];
+    let mesh = block([0.0; 3], [1.0, 1.0, 0.5], divisions).mesh().unwrap();
+    let mut model = model(vec![body("block", mesh, rubber(1.0, 0.0))]);
+    for (name, from, to) in [("left", -2.0, 1.2), ("right", 1.2, 4.0)] {
+        model.touch_rigid(("block", "zmin"), rigid_floor(from, to), coulomb(0.0));
+        name.clone_into(&mut model.pairs.last_mut().unwrap().name);
+        name.clone_into(&mut model.rigid_surfaces.last_mut().unwrap().name);
+    }
+    let mut press = step();
+    press.displacements = vec![model.hold("block", "zmax", [Some(0.0), Some(0.0), Some(-0.01)])];
+    let mut slide = step();
+    slide.displacements = vec![model.hold("block", "zmax", [Some(to), Some(0.0), Some(-0.01)])];
+    slide.increments = increments(1.0 / count, 1.0 / count);
+    model.steps = vec![press, slide];
+    model
+}
+
+#[test]
+fn a_pair_that_is_entered_bears_its_share_at_once() {
+    // Parts of a facet from a fifth on; smaller ones are slivers.
+    for (divisions, over, count) in [
+        (3, 0.07, 1.0),
+        (3, 0.1, 1.0),
+        (3, 0.1, 8.0),
+        (3, 0.6, 3.0),
+        (6, 0.1, 1.0),
+        (6, 0.3, 2.0),
+    ] {
+        let run = Run::completed(over_a_border(divisions, 0.2 + over, count));
+        let reports = pairs(&run.problem, run.last());
+        let whole: f64 = reports.iter().map(|pair| pair.sides[0].force.z).sum();
+        let share = reports[1].sides[0].force.z / whole;
+        assert!(
+            (share - over).abs() < 1e-6,
+            "{divisions} {over} {count}: {share}"
+        );
+        for pair in &reports {
+            let most = pair.max_pressure;
+            assert!(
+                (most / whole - 1.0).abs() < 1e-4,
+                "{divisions} {over} {count}: {most} for {whole}"
+            );
+        }
+    }
+}
+
+/// Two blocks on each other, the upper one pressed and slid; the floor is far below the upper one,
+/// but within the search distance of a pair of both.
+fn above_the_floor(is_near: bool) -> Model {
+    let lower = block([-0.2, -0.2, 0.0], [1.4, 1.4, 0.3], [5, 5, 1]);
+    let upper = block([0.0, 0.0, 0.3], [1.0, 1.0, 0.5], [3, 3, 2]);
+    let bodies = [("lower", lower), ("upper", upper)];
+    let bodies = bodies.map(|(name, mesh)| body(name, mesh.mesh().unwrap(), rubber(1.0, 0.3)));
+    let mut model = model(bodies.into());
+    model.touch(("upper", "zmin"), ("lower", "zmax"), coulomb(0.3));
+    if is_near {
+        let floor = plane([0.0; 3], [0.0, 0.0, 1.0]);
+        model.touch_rigid(("upper", "zmin"), floor, coulomb(0.3));
+        model.pairs[1].search_distance = Some(1.0);
+    }
+    let held = model.hold("lower", "zmin", [Some(0.0); 3]);
+    let mut press = step();
+    press.displacements = vec![
+        held.clone(),
+        model.hold("upper", "zmax", [Some(0.0), Some(0.0), Some(-0.02)]),
+    ];
+    let mut slide = step();
+    slide.displacements = vec![
+        held,
+        model.hold("upper", "zmax", [Some(0.1), Some(0.0), Some(-0.02)]),
+    ];
+    slide.increments = increments(0.25, 0.05);
+    model.steps = vec![press, slide];
+    model
+}
+
+#[test]
+fn what_does_not_touch_changes_nothing() {
+    let [alone, near] = [false, true].map(|is_near| forces(&run(above_the_floor(is_near))));
+    for ((alone, most), (near, most_of_near)) in alone.iter().zip(&near) {
+        for (alone, near) in alone.iter().zip(near) {
+            assert!((alone - near).abs() < 1e-8 * most, "{alone} and {near}");
+        }
+        assert!((most - most_of_near).abs() < 1e-8 * most);
     }
 }
