@@ -28,7 +28,7 @@ use crate::{
 
 /// Angle between the normal of a facet and those at its corners from which on its edges are taken
 /// for edges of the body.
-const EDGE: f64 = 0.4;
+pub(crate) const EDGE: f64 = 0.4;
 /// Largest error over the overlap that is told.
 const ALL: f64 = 1e3;
 
@@ -125,7 +125,7 @@ fn beyond(paired: &PairedFacets, side: Side, normals: &[Vec3]) -> f64 {
 
 /// `s` of a facet with the corners `x` and the normals `n` there, with the products `N_i N_j`, or
 /// their integrals; zero at the edges of the body.
-fn height(x: &[Vec3; 4], n: &[Vec3; 4], product: impl Fn(usize, usize) -> f64) -> f64 {
+pub(crate) fn height(x: &[Vec3; 4], n: &[Vec3; 4], product: impl Fn(usize, usize) -> f64) -> f64 {
     let flat = facet_normal(x);
     if n.iter().any(|n| n.angle(&flat) > EDGE) {
         return 0.0;

@@ -29,13 +29,11 @@
 //! conform: where `G` changes less over the faces that are seated than the correction `g_0 - G`.
 //! Otherwise the correction would not be that of points that come to face each other later.
 //!
-//! `n_0` belongs to where the facets were at the start. Where curved faces have slid past each other
-//! so far that their normals there differ by the angle `t`, the correction is tilted by `t` over
-//! facets of the size `h`: gaps are off by about `t h/4` ([`slid`]).
+//! `n_0` belongs to where the facets were at the start. Faces that have slid along their curvature
+//! since have other normals there; what follows from that is added ([`slid`]).
 
+mod heights;
 mod slid;
-
-pub use slid::{Slid, slid};
 
 use std::sync::Arc;
 
@@ -46,11 +44,14 @@ use crate::{
     configuration::Configuration,
     initial::overlaps,
     interference::{AHEAD, Stage, Standing, inside, nearest_of},
-    pairing::{PairedFacets, SIGNS, Scope, compliances, paired_facets},
+    pairing::{PairedFacets, Scope, compliances, paired_facets},
     sagitta,
     segment::{FACING, Facet, SegmentDerivatives, facet_normal, normal_between},
     side::Side,
 };
+
+use heights::{between, heights, middle, size};
+use slid::Slid;
 
 /// Error of overlaps of facets over those of the curved surfaces from which on the surfaces count.
 const CURVED: f64 = 0.01;
@@ -74,14 +75,17 @@ pub struct Seating {
     /// The plane at the start that side `b` is, if it is one.
     plane: Option<(Vec3, Vec3)>,
     compliances: [Vec<f64>; 2],
+    /// Normals of the common surface at the nodes; empty against a plane.
+    normals: [Vec<Vec3>; 2],
     met: [Vec<Met>; 2],
     /// Gaps at the nodes along their own normals, for collocated rows.
     gaps: [Vec<Option<f64>>; 2],
     /// The largest gap or overlap of facets that are seated.
     largest: f64,
-    /// Gaps `G_I` of the nodes of deformable sides from the curved surface of the other side; none
-    /// if faces are taken as touching.
-    surfaces: Option<[Vec<Option<f64>>; 2]>,
+    /// Gaps `G_I` of the nodes of deformable sides from the curved surface of the other side.
+    surfaces: [Vec<Option<f64>>; 2],
+    /// Contact sees the gaps of the curved surfaces; otherwise faces are taken as touching.
+    sees_surfaces: bool,
     /// Share of the nodes of a side in `G`.
     share: f64,
     /// Largest distance `|g_0 - G|` that facets are corrected by.
@@ -100,7 +104,7 @@ pub struct Fitted {
 impl Seating {
     /// Faces of the configuration at the start that are taken as touching.
     pub fn new(stage: &Stage) -> Self {
-        Self::with(stage, None)
+        Self::with(stage, false)
     }
 
     /// Faces of the configuration at the start as far apart as their curved surfaces; `None` where
@@ -112,11 +116,7 @@ impl Seating {
         if deepest == 0.0 || sagitta::share(stage, deepest) <= CURVED {
             return None;
         }
-        let surfaces = Side::BOTH.map(|side| match start.pair.is_deformable(side) {
-            true => sagitta::nodal_gaps(stage, side),
-            false => Vec::new(),
-        });
-        let seating = Self::with(stage, Some(surfaces));
+        let seating = Self::with(stage, true);
         (seating.spread(start) < seating.correction).then_some(seating)
     }
 
@@ -125,9 +125,7 @@ impl Seating {
     fn spread(&self, start: &Configuration) -> f64 {
         let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
         for side in Side::BOTH {
-            let Some(gaps) = self.surfaces.as_ref().map(|gaps| &gaps[side]) else {
-                continue;
-            };
+            let gaps = &self.surfaces[side];
             if gaps.is_empty() {
                 continue;
             }
@@ -143,8 +141,12 @@ impl Seating {
         most - least
     }
 
-    fn with(stage: &Stage, surfaces: Option<[Vec<Option<f64>>; 2]>) -> Self {
+    fn with(stage: &Stage, sees_surfaces: bool) -> Self {
         let start = stage.configuration;
+        let surfaces = Side::BOTH.map(|side| match start.pair.is_deformable(side) {
+            true => sagitta::nodal_gaps(stage, side),
+            false => Vec::new(),
+        });
         let compliances = compliances(start);
         let deepest = overlaps(stage)
             .iter()
@@ -170,8 +172,8 @@ impl Seating {
                 continue;
             }
             largest = largest.max(gap.abs());
-            if let Some(surfaces) = &surfaces {
-                let Some(between) = between(surfaces, share, paired) else {
+            if sees_surfaces {
+                let Some(between) = between(&surfaces, share, paired) else {
                     continue;
                 };
                 let area = paired.segment.area;
@@ -210,10 +212,12 @@ impl Seating {
             }),
             plane: start.plane(),
             compliances,
+            normals: slid::normals(start),
             met,
             gaps,
             largest,
             surfaces,
+            sees_surfaces,
             share,
             correction,
         }
@@ -221,10 +225,12 @@ impl Seating {
 
     /// Overlaps of the curved surfaces at the nodes, by side.
     pub fn overlaps(&self) -> [Vec<f64>; 2] {
-        let surfaces = self.surfaces.clone().unwrap_or_default();
-        surfaces.map(|side| {
-            let overlap = |gap: Option<f64>| (-gap.unwrap_or(0.0)).max(0.0);
-            side.into_iter().map(overlap).collect()
+        if !self.sees_surfaces {
+            return Default::default();
+        }
+        self.surfaces.each_ref().map(|side| {
+            let overlap = |gap: &Option<f64>| (-gap.unwrap_or(0.0)).max(0.0);
+            side.iter().map(overlap).collect()
         })
     }
 
@@ -258,53 +264,54 @@ impl Seating {
             (Met::Facing(a), Some(Met::Facing(b))) => 0.5 * (a + b),
             _ => return None,
         };
-        let Some(mut heights) = self.heights(paired) else {
+        let a = self.facet(paired, Side::A);
+        let between = between(&self.surfaces, self.share, paired);
+        let heights = match self.plane {
+            Some((point, normal)) => Some(heights(&a, None, &-normal, &point)),
+            None => {
+                let b = self.facet(paired, Side::B);
+                let slid = Slid::new(self, paired);
+                match self.normal(paired, [&a, &b]) {
+                    Some(n) => {
+                        let near = heights(&a, Some(&b), &n, &a.corners[0]);
+                        Some(slid.map_or(near, |slid| slid.near(near, &n)))
+                    }
+                    None => slid.zip(between).map(|(slid, gap)| slid.far(&gap)),
+                }
+            }
+        };
+        let Some(mut heights) = heights else {
             return Some(std::array::from_fn(|d| if d < 4 { mean } else { 0.0 }));
         };
-        if let Some(surfaces) = &self.surfaces {
-            for (height, gap) in heights
-                .iter_mut()
-                .zip(between(surfaces, self.share, paired)?)
-            {
+        if self.sees_surfaces {
+            for (height, gap) in heights.iter_mut().zip(between?) {
                 *height -= gap;
             }
         }
         Some(heights)
     }
 
-    /// Heights of the corners at the start along the normal of two facets, with the sign of their
-    /// side in the gap; `None` where the facets did not face each other or were far apart.
-    fn heights(&self, paired: &PairedFacets) -> Option<[f64; 8]> {
-        let facet = |side: Side| Facet {
+    /// A facet at the start.
+    fn facet(&self, paired: &PairedFacets, side: Side) -> Facet {
+        Facet {
             corners: paired.corners[side].map(|node| self.x[side][node]),
             shape: Shape::of(&paired.corners[side]),
-        };
-        let a = facet(Side::A);
-        let (n, origin, b) = match self.plane {
-            Some((point, normal)) => (-normal, point, None),
-            None => {
-                let b = facet(Side::B);
-                if facet_normal(&a)?.dot(&facet_normal(&b)?) > FACING {
-                    return None;
-                }
-                let weights = Side::BOTH.map(|side| {
-                    let facet = paired.facets[side];
-                    facet.map_or(0.0, |facet| self.compliances[side][facet.index()])
-                });
-                let n = normal_between(&a, &b, weights)?;
-                let way = middle(&b) - middle(&a);
-                let along = (way - n * n.dot(&way)).norm();
-                if along > size(&a) + size(&b) {
-                    return None;
-                }
-                (n, a.corners[0], Some(b))
-            }
-        };
-        Some(std::array::from_fn(|d| match (&b, d) {
-            (_, 0..4) => SIGNS[d] * n.dot(&(a.corners[d] - origin)),
-            (Some(b), _) => SIGNS[d] * n.dot(&(b.corners[d - 4] - origin)),
-            (None, _) => 0.0,
-        }))
+        }
+    }
+
+    /// `n_0` of two facets; `None` where they did not face each other or were far apart.
+    fn normal(&self, paired: &PairedFacets, [a, b]: [&Facet; 2]) -> Option<Vec3> {
+        if facet_normal(a)?.dot(&facet_normal(b)?) > FACING {
+            return None;
+        }
+        let weights = Side::BOTH.map(|side| {
+            let facet = paired.facets[side];
+            facet.map_or(0.0, |facet| self.compliances[side][facet.index()])
+        });
+        let n = normal_between(a, b, weights)?;
+        let way = middle(b) - middle(a);
+        let along = (way - n * n.dot(&way)).norm();
+        (along <= size(a) + size(b)).then_some(n)
     }
 }
 
@@ -325,29 +332,15 @@ impl Fitted {
     pub(crate) fn at_node(&self, side: Side, node: SurfaceNode) -> f64 {
         let at_node =
             |gaps: &[Vec<Option<f64>>; 2]| gaps[side].get(node.index()).copied().flatten();
-        let between = self.seating.surfaces.as_ref().map_or(Some(0.0), at_node);
+        let between = match self.seating.sees_surfaces {
+            true => at_node(&self.seating.surfaces),
+            false => Some(0.0),
+        };
         match (at_node(&self.seating.gaps), between) {
             (Some(gap), Some(between)) => between - gap - self.interference,
             _ => 0.0,
         }
     }
-}
-
-/// Gaps of curved surfaces in shares of the corners of two facets; `None` where a corner does not
-/// face the other side.
-fn between(
-    surfaces: &[Vec<Option<f64>>; 2],
-    share: f64,
-    paired: &PairedFacets,
-) -> Option<[f64; 8]> {
-    let mut gaps = [0.0; 8];
-    for (c, gap) in gaps.iter_mut().enumerate() {
-        let of_side = &surfaces[paired.sides[c / 4]];
-        if !of_side.is_empty() {
-            *gap = share * of_side[paired.corners[c / 4][c % 4].index()]?;
-        }
-    }
-    Some(gaps)
 }
 
 /// Classification of a facet that faces nothing near it.
@@ -379,19 +372,4 @@ fn nodal_gaps(start: &Configuration, side: Side, depth: f64) -> Vec<Option<f64>>
             (contact.gap <= reach && contact.gap >= -reach - depth).then_some(contact.gap)
         })
         .collect()
-}
-
-fn middle(facet: &Facet) -> Vec3 {
-    let count = match facet.shape {
-        Shape::Triangle => 3,
-        Shape::Quadrilateral => 4,
-    };
-    facet.corners[..count].iter().sum::<Vec3>() / count as f64
-}
-
-/// Distance between the corners of a facet that are farthest apart, about.
-fn size(facet: &Facet) -> f64 {
-    let middle = middle(facet);
-    let distances = facet.corners.iter().map(|x| (x - middle).norm());
-    2.0 * distances.fold(0.0, f64::max)
 }

@@ -190,6 +190,51 @@ fn error_of_chords_is_that_of_their_sagittas() {
     }
 }
 
+/// A shaft that turns in its hub without friction has the pressure that it had, however far its
+/// facets have gone; both are held by rigid bodies.
+#[test]
+fn a_shaft_that_turns_keeps_its_pressure() {
+    let turned = |keys: &str, radius: f64, angle: f64| {
+        let text = shaft_in_hub(radius, [4, 40], keys);
+        let text = &text[..text.find("[[curve]]").unwrap()];
+        format!(
+            r#"{text}
+[[rigid]]
+name = "core"
+tied = [{{ body = "shaft", nodes = "core" }}]
+[[rigid]]
+name = "ring"
+tied = [{{ body = "hub", nodes = "tread" }}]
+[[step]]
+name = "fit"
+increments = 1
+[[step]]
+name = "turn"
+increments = 3
+rigid = [{{ surface = "core", rotation = [0, 0, {angle}] }}]
+"#
+        )
+        .replace(
+            "name = \"y0\", from = [-9, -1e-6, -9], to = [9, 1e-6, 9] }, { name = \"x0\", from = [-1e-6, -9, -9], to = [1e-6, 9, 9] }]\n[[body]]\nname = \"hub\"",
+            "name = \"core\", cylinder = { point = [0, 0, 0], axis = [0, 0, 1], radius = 0.3 } }]\n[[body]]\nname = \"hub\"",
+        )
+    };
+    let interference = format!("interference = {INTERFERENCE}");
+    for (keys, radius) in [
+        (interference.as_str(), 0.5),
+        ("initial = \"resolve\"", 0.5 + INTERFERENCE),
+    ] {
+        let still = pressure(&turned(keys, radius, 0.0));
+        for angle in [1.0, 7.0, 20.0, 80.0] {
+            let found = pressure(&turned(keys, radius, angle));
+            assert!(
+                (found / still - 1.0).abs() < 0.01,
+                "{keys}, {angle} degrees: {found} for {still}"
+            );
+        }
+    }
+}
+
 /// The end of the curve decides after the first step, not its course.
 #[test]
 fn interference_follows_its_curve_and_stays() {

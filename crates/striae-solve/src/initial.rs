@@ -35,7 +35,7 @@ pub use crowd::opposite;
 use facing::askew;
 pub use facing::{Turned, back_to_back, turned};
 pub use faults::{Closing, InitialFault, Reversal};
-pub use offsets::{Offsets, meant_depth, slid_fit};
+pub use offsets::{Offsets, meant_depth};
 pub use reach::may_meet;
 pub use surfaces::surfaces;
 

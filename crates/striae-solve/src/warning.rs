@@ -14,7 +14,6 @@
 //! | `penetration` | depth over the size of the smaller facets there, see [`crate::interference`] | 0.1 |
 //! | `passage` | the same for what has passed through, see there | 0 |
 //! | `coarse` | facet size over that which would do for the zone of contact, where the force of the pair is largest, see [`crate::audit`] | 1 |
-//! | `slid-fit` | error of the gaps of faces that interfere and have slid along their curvature over their interference, see [`striae_contact::seating`] | 0.1 |
 //! | `overlap` | the same for bodies inside themselves or others where no pair sees it, over the smaller facet | 0.1 |
 //! | `unfelt` | the same while the pair has no force at all, but at nodes that another pair presses | 0.02 |
 //! | `creation` | negative friction work over the largest energy | 1e-6 |
@@ -47,7 +46,7 @@ use striae_surface::node::SurfaceNode;
 
 use crate::{
     audit::{Doubt, LEAST_SHARE, coarse, doubts},
-    initial::{fits, may_meet, meant_depth, other_name, slid_fit},
+    initial::{fits, may_meet, meant_depth, other_name},
     interference::{Positions, between, beyond, within},
     model::{Initial, Model, PairId, Procedure},
     newton::{Acceptance, InStep, Increment, Reach},
@@ -95,8 +94,6 @@ pub enum Kind {
     Unfelt,
     /// Facets are too coarse for the zone of contact.
     Coarse,
-    /// Faces that interfere have slid too far along their curvature.
-    SlidFit,
     /// Bodies are inside themselves or others where no pair sees it.
     Overlap,
     /// Bodies have passed through each other.
@@ -131,14 +128,13 @@ pub enum Kind {
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Self; 22] = [
+    pub const ALL: [Self; 21] = [
         Self::Mismatch,
         Self::Moment,
         Self::Tension,
         Self::Penetration,
         Self::Unfelt,
         Self::Coarse,
-        Self::SlidFit,
         Self::Overlap,
         Self::Passage,
         Self::Creation,
@@ -165,7 +161,6 @@ impl Kind {
             Self::Penetration => "penetration",
             Self::Unfelt => "unfelt",
             Self::Coarse => "coarse",
-            Self::SlidFit => "slid-fit",
             Self::Overlap => "overlap",
             Self::Passage => "passage",
             Self::Creation => "creation",
@@ -193,7 +188,7 @@ impl Kind {
             Self::Unfelt => UNFELT,
             Self::Gain => LEAST_SHARE,
             Self::Coarse => 1.0,
-            Self::Rotation | Self::Contact | Self::Integration | Self::SlidFit => 0.1,
+            Self::Rotation | Self::Contact | Self::Integration => 0.1,
             // A force that rises with the way does at least half of the work of its last value.
             Self::Snap => 0.5,
             Self::Imbalance => 1e-3,
@@ -310,7 +305,6 @@ impl Judgement {
         for (pair, report) in reports.iter().enumerate() {
             self.pair(problem, pair, report, [before, after]);
             self.passage(pair, &interferences[pair], after.time);
-            self.slid_fit(problem, pair, after);
             self.penetration(problem, pair, (after, in_step), report.max_pressure);
         }
         for overlap in overlaps {
@@ -399,20 +393,6 @@ impl Judgement {
                 node: Some((found.body, found.node)),
                 value: found.size / found.enough,
                 size: found.size,
-                time: after.time,
-            });
-        }
-    }
-
-    /// Judges faces that interfere by how far they have slid.
-    fn slid_fit(&mut self, problem: &Problem, pair: usize, after: &State) {
-        if let Some((slid, interference)) = slid_fit(problem, pair, after) {
-            self.note_at(Worst {
-                kind: Kind::SlidFit,
-                pair: Some(pair),
-                node: None,
-                value: over(slid.error, interference),
-                size: slid.turned,
                 time: after.time,
             });
         }
@@ -717,11 +697,6 @@ fn warning(problem: &Problem, worst: &Worst) -> Warning {
         }
         Kind::Integration => format!(
             "the time integration has created energy up to time {time:.4}, of {percent:.0} % of the largest energy: take a smaller `spectral_radius`, or smaller increments"
-        ),
-        Kind::SlidFit => format!(
-            "the faces of pair `{name}` have slid along their curvature by {:.1} degrees at time {time:.4}: the gaps of their facets, which are known for where they were at the start, are off by {percent:.0} % of the interference, and pressures with them; facets {:.0} times smaller would do",
-            worst.size.to_degrees(),
-            (value / kind.limit()).ceil()
         ),
         Kind::Snap => format!(
             "the increment to time {time:.4} has gained strain energy without work, {percent:.0} % of the largest energy: it may have jumped to another equilibrium, with elements folded; look at the deformed mesh there, and take smaller increments"

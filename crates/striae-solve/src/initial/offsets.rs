@@ -22,7 +22,7 @@ use std::sync::Arc;
 use striae_contact::{
     initial::overlaps,
     interference::{AHEAD, Interference, Place, Stage, inside},
-    seating::{Fitted, Seating, Slid, slid},
+    seating::{Fitted, Seating},
 };
 
 use super::LARGEST_OVERLAP;
@@ -133,37 +133,6 @@ pub fn meant_depth(problem: &Problem, pair: usize, worn: f64) -> f64 {
     };
     let drawn = inside(&stage, 0.0).into_iter().map(|found| found.depth);
     drawn.fold(0.0, f64::max) + interference.deepest(problem.plans[0].start) + worn
-}
-
-/// Sliding of the faces of a pair that interfere along their curvature, and their interference;
-/// `None` for other pairs.
-pub fn slid_fit(problem: &Problem, pair: usize, state: &State) -> Option<(Slid, f64)> {
-    let of_pair = &problem.model.pairs[pair];
-    if of_pair.initial != Initial::Resolve && of_pair.interference.is_none() {
-        return None;
-    }
-    let start = State::undeformed(problem);
-    let at = |state: &State| configuration(problem, pair, Positions::from(state));
-    let (at_start, now) = (at(&start), at(state));
-    // Meshes that do not match have other normals from the start.
-    let before = slid(&at_start, &at_start).unwrap_or_default();
-    let after = slid(&at_start, &now)?;
-    let slid = Slid {
-        error: (after.error - before.error).max(0.0),
-        turned: (after.turned - before.turned).max(0.0),
-    };
-    let interferes = match &of_pair.interference {
-        Some(interference) => interference.value.abs(),
-        None => {
-            let stage = Stage {
-                configuration: &at_start,
-                thickness: &thickness(problem, pair, &start.positions),
-            };
-            let overlaps = Seating::of_surfaces(&stage)?.overlaps();
-            overlaps.into_iter().flatten().fold(0.0, f64::max)
-        }
-    };
-    Some((slid, interferes))
 }
 
 /// The deepest overlap over the thickness of the body, if it is more than half of it, with that
