@@ -40,6 +40,14 @@ def test_the_narrowest_law_counts_and_textures_are_painted(pad: st.Body, floor: 
     assert again.pair_names == model.pair_names
 
 
+def test_a_texture_may_be_stated_again(pad: st.Body, floor: st.Plane) -> None:
+    model = assembly([pad], [floor])
+    law = st.TwoTextures(0.5, c_mag=0.2, c_ang=0.15, c_cen=0.8)
+    once, again = (pad["zmin"].textured((1, 0, 0)) for _ in range(2))
+    model.contact_all(between=[(once, floor, law)], textures=[again])
+    model.check()
+
+
 def test_steps_change_friction_by_name(pad: st.Body, floor: st.Plane) -> None:
     model = assembly([pad], [floor])
     model.contact_all()
@@ -69,6 +77,10 @@ def test_wrong_uses_are_told(pad: st.Body, floor: st.Plane) -> None:
         model.contact_all(exclude=[3])  # type: ignore[list-item]
     with pytest.raises(TypeError, match="has no texture"):
         model.contact_all(textures=[pad["zmin"]])
+    along, across = (pad["zmin"].textured(way) for way in ((1, 0, 0), (0, 1, 0)))
+    law = st.Orthotropic(mu_along=0.1, mu_across=0.4)
+    with pytest.raises(st.ModelError, match="textures: `pad.zmin` has two textures"):
+        model.contact_all(between=[(along, floor, law)], textures=[across])
     three: Any = [("a", "b", "floor")]
     with pytest.raises(st.ModelError, match="exclude: tuples of two surfaces are needed, not of 3"):
         model.contact_all(exclude=three)
