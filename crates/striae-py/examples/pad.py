@@ -29,7 +29,7 @@ known = st.TwoTextures(0.5, c_mag=0.2, c_ang=0.15, c_cen=0.8)
 angles, forces, theta = [], [], []
 for between in (0.0, 60.0, 120.0):
     surface = known.slip_surface(between, 24)
-    angles += [float(angle) * 57.29577951308232 for angle in surface.slip_angle]
+    angles += [float(angle) for angle in surface.slip_angle]
     forces += [float(force) for force in surface.dissipation]
     theta += [between] * 24
 fit = st.fit_friction(angles, forces, law=st.TwoTextures, theta=theta)

@@ -24,7 +24,7 @@ def test_exact_measurements_give_the_law(
     law: st.Friction, constants: dict[str, float], directed: bool
 ) -> None:
     surface = law.slip_surface(count=24)
-    angles = np.degrees(surface.slip_angle)
+    angles = surface.slip_angle
     forces = surface.friction if directed else surface.dissipation
     words = {"slip_rule": "associated"} if "associated" in repr(law) else {}
     fit = st.fit_friction(angles, forces, type(law), **words)
@@ -42,7 +42,7 @@ def test_exact_measurements_give_the_law(
 def test_two_textures_need_several_angles_between_them() -> None:
     law = st.TwoTextures(0.5, c_mag=0.2, c_ang=0.15, c_cen=0.8)
     surfaces = {theta: law.slip_surface(theta, 24) for theta in (0.0, 60.0, 120.0)}
-    angles = np.degrees(np.concatenate([one.slip_angle for one in surfaces.values()]))
+    angles = np.concatenate([one.slip_angle for one in surfaces.values()])
     forces = np.concatenate([one.dissipation for one in surfaces.values()])
     fit = st.fit_friction(angles, forces, st.TwoTextures, theta=np.repeat(list(surfaces), 24))
     expected = {"mu": 0.5, "c_mag": 0.2, "c_ang": 0.15, "c_cen": 0.8}

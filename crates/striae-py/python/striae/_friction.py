@@ -33,7 +33,7 @@ class SlipSurface(NamedTuple):
     """
 
     slip_angle: Floats
-    """Direction of slip (radians)."""
+    """Direction of slip (degrees)."""
     friction: Floats
     """``-tau/p``, of shape (n, 2): along the axis of the frame and across it (no unit)."""
     dissipation: Floats
@@ -203,7 +203,7 @@ class Friction(Dependences):
         count = check.whole(count, "count", 3)
         angle, along, across, _, work = self._native.slip_surface(np.radians(theta), count)
         mu = self._native.coefficient
-        return SlipSurface(angle, mu * np.column_stack([along, across]), mu * work)
+        return SlipSurface(np.degrees(angle), mu * np.column_stack([along, across]), mu * work)
 
     def plot(self, axes: Union[Axes, None] = None, theta: float = 0.0) -> Axes:
         """Draws the slip surface, and arrows of slip from it, with matplotlib.

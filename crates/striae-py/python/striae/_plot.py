@@ -116,7 +116,8 @@ def draw_friction(friction: Friction, axes: Optional[Axes], theta: float) -> Axe
     closed = np.vstack([surface.friction, surface.friction[:1]])
     on.plot(*closed.T, color="tab:blue", label=r"$-\tau/p$")
     some = slice(None, None, 20)
-    slip = np.column_stack([np.cos(surface.slip_angle), np.sin(surface.slip_angle)])[some]
+    direction = np.radians(surface.slip_angle)[some]
+    slip = np.column_stack([np.cos(direction), np.sin(direction)])
     size = float(np.abs(surface.friction).max(initial=0.0)) or 1.0
     on.quiver(
         *surface.friction[some].T,
@@ -158,7 +159,7 @@ def draw_fit(
         on.plot(degrees, against[here], "o", color=f"C{number}", label=f"measured{label}")
         surface = friction.slip_surface(float(np.degrees(angle)), 360)
         order = np.argsort(surface.slip_angle)
-        law = np.degrees(surface.slip_angle[order])
+        law = surface.slip_angle[order]
         on.plot(law, surface.dissipation[order], color=f"C{number}", label=f"law{label}")
     on.set_xlabel("direction of slip (degrees)")
     on.set_ylabel("friction against slip over pressure")
