@@ -14,11 +14,11 @@
 //! pivot: equals would flip otherwise, and a node that leaves would not have faded yet.
 //! Every patch keeps at least one node.
 //!
-//! Pivots within [`TIE`] of the largest are ties and kept from the middle of all candidates
+//! Pivots within `TIE` of the largest are ties and kept from the middle of all candidates
 //! (weighted by `w_k`) outwards: a regular pattern then grows from one place and meets
 //! itself nowhere, its irregularities fall on the rim, and nodes that are uncovered soon
 //! come last. Of equally distant nodes the one with the smaller coordinates goes first.
-//! Distances and coordinates that differ by [`SAME_PLACE`](crate::contest::SAME_PLACE) of the
+//! Distances and coordinates that differ by `SAME_PLACE` of the
 //! extent are equal, by clusters rather than by rounding, which would tear equals apart.
 //!
 //! The order in which dependent nodes are kept decides their pivots, so two of them that

@@ -30,7 +30,7 @@
 //! Otherwise the correction would not be that of points that come to face each other later.
 //!
 //! `n_0` belongs to where the facets were at the start. Faces that have slid along their curvature
-//! since have other normals there; what follows from that is added ([`slid`]).
+//! since have other normals there; what follows from that is added.
 
 mod heights;
 mod slid;
