@@ -159,7 +159,8 @@ fn compete<'a>(
 }
 
 /// The fields chosen again with the contacts of a trial state. Pairs that carry all that met keep
-/// theirs: what happens in one does not bear on the discretisation of another.
+/// theirs, but for nodes that another pair needs at the same positions: nothing else that happens in
+/// one bears on the discretisation of another.
 pub(super) fn reselected(setting: &Setting, trial: &Trial, contacts: &[Evaluation]) -> Selected {
     let context = setting.context;
     let start = |pair: usize| {
