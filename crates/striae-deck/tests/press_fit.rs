@@ -225,6 +225,25 @@ rigid = [{{ surface = "core", rotation = [0, 0, {angle}] }}]
         ("initial = \"resolve\"", 0.5 + INTERFERENCE),
     ] {
         let still = pressure(&turned(keys, radius, 0.0));
+        // The order of the sides does not count. Nor does the way round, but that coordinates
+        // decide which of equal nodes are kept, which a mirror image has not.
+        let ahead = turned(keys, radius, 7.0);
+        let hub =
+            "a = { body = \"hub\", facets = \"rim\" }\nb = { body = \"shaft\", facets = \"side\" }";
+        let shaft =
+            "a = { body = \"shaft\", facets = \"side\" }\nb = { body = \"hub\", facets = \"rim\" }";
+        assert!(ahead.contains(hub));
+        let [ahead, exchanged, back] = [
+            ahead.clone(),
+            ahead.replace(hub, shaft),
+            turned(keys, radius, -7.0),
+        ]
+        .map(|text| pressure(&text));
+        assert!(
+            (exchanged / ahead - 1.0).abs() < 1e-5,
+            "{exchanged} {ahead}"
+        );
+        assert!((back / ahead - 1.0).abs() < 1e-3, "{back} {ahead}");
         for angle in [1.0, 7.0, 20.0, 80.0] {
             let found = pressure(&turned(keys, radius, angle));
             assert!(
