@@ -85,6 +85,12 @@ impl Function {
             let numbers = list.iter().flat_map(|v| v.iter().copied()).collect();
             PyArray1::from_vec(py, numbers).reshape([count, 3])
         };
+        // A function that has not asked for textures must not take them for zero.
+        let textures = |list: &[Vector3<f64>], asked: bool| match asked {
+            true => vectors(list),
+            false => vectors(&vec![Vector3::repeat(f64::NAN); count]),
+        };
+        let asks = self.textures != RequiredTextures::Any;
         let states = scalars(&points.states).reshape([count, self.initial.len()])?;
         let given = PyDict::new(py);
         given.set_item("pressure", scalars(&points.pressure))?;
@@ -92,8 +98,8 @@ impl Function {
         given.set_item("accumulated_slip", scalars(&points.accumulated_slip))?;
         given.set_item("position", vectors(&points.position)?)?;
         given.set_item("normal", vectors(&points.normal)?)?;
-        given.set_item("texture", vectors(&points.own)?)?;
-        given.set_item("opposite_texture", vectors(&points.opposite)?)?;
+        given.set_item("texture", textures(&points.own, asks)?)?;
+        given.set_item("opposite_texture", textures(&points.opposite, asks)?)?;
         given.set_item("state", states)?;
         given.set_item("time", points.time)?;
         given.set_item("duration", points.elapsed)?;

@@ -311,6 +311,11 @@ def test_values_of_other_contacts_are_refused() -> None:
     foreign = "it belongs to other surfaces; use one that this contact has made"
     with pytest.raises(st.ModelError, match=f"state: {foreign}"):
         contact.begin(other.untouched())
+    # The mesh with its other side, which has as many nodes.
+    opposite = [facet[::-1] for facet in FACETS]
+    turned = Contact(POINTS, [Pair(Surface(opposite, youngs_modulus=K), st.Plane("floor"))])
+    with pytest.raises(st.ModelError, match=f"state: {foreign}"):
+        contact.begin(turned.untouched())
     begun = contact.begin(contact.untouched())
     theirs = other.begin(other.untouched())
     found = theirs.evaluate(POINTS[[0, 1, 5, 4]], theirs.tractions)

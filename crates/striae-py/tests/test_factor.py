@@ -163,6 +163,11 @@ def test_factors_are_judged() -> None:
         (lambda at: 1 - at.pressure / 5e4, "film: factor of friction `film`: it is -"),
         (lambda at: 1 / (1 + (at.pressure / 1e4) ** 2), "film: the factor lets friction fall"),
         (lambda at: np.where(at.slip_rate > 0, 0.8, 1.0), "film: the factor jumps or has no finite"),
+        (
+            lambda at: np.where(at.pressure > 1e4, 1.5, 1.0),
+            r"film: the factor jumps by 5\.000e-1 where the pressure is 1\.000000e4",
+        ),
+        (lambda at: 1 + 0.1 * at.texture[:, 0] ** 2, "film: factor of friction `film`: it is NaN"),
         (lambda at: np.ones(3), r"film: factor: an array of shape \(\d+,\) is needed"),
         (
             lambda at: st.FactorSlopes(

@@ -98,6 +98,17 @@ def test_numbers_have_units(name: str, thing: object) -> None:
         assert UNIT.search(text), f"{name} has no unit"
 
 
+def test_fields_of_named_tuples_say_what_they_are() -> None:
+    for name, thing in named():
+        fields = getattr(thing, "_fields", ()) if inspect.isclass(thing) else ()
+        for field in fields:
+            words = inspect.getdoc(getattr(thing, field)) or ""
+            assert words and not words.startswith("Alias for"), f"{name}.{field}"
+            hint = thing.__annotations__[field]
+            if getattr(hint, "__forward_arg__", hint) in ("Floats", "float"):
+                assert UNIT.search(words), f"{name}.{field} has no unit"
+
+
 def test_the_example_of_the_docstring_holds() -> None:
     assert doctest.testmod(st).failed == 0
 

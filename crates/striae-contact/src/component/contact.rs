@@ -31,6 +31,8 @@ pub struct Contact(Arc<Parts>);
 struct Parts {
     reference: Vec<Vec3>,
     members: Vec<Member>,
+    /// Checksum of the mesh and its surfaces, by which states are told apart.
+    checksum: u32,
 }
 
 /// A pair with what goes with it.
@@ -65,6 +67,7 @@ impl Contact {
         }
         match faults.is_empty() {
             true => Ok(Self(Arc::new(Parts {
+                checksum: checksum(&positions, &members),
                 reference: positions,
                 members,
             }))),
@@ -94,6 +97,10 @@ impl Contact {
 
     pub(super) fn reference(&self) -> &[Vec3] {
         &self.0.reference
+    }
+
+    pub(super) fn checksum(&self) -> u32 {
+        self.0.checksum
     }
 
     pub(super) fn members(&self) -> &[Member] {
@@ -129,6 +136,35 @@ impl Contact {
         }
         Ok(())
     }
+}
+
+/// Checksum of positions and facets; friction and textures may change between states.
+fn checksum(positions: &[Vec3], members: &[Member]) -> u32 {
+    let mut sum = crc32fast::Hasher::new();
+    let mut vectors = |list: &[Vec3]| {
+        for number in list.iter().flatten() {
+            sum.update(&number.to_bits().to_le_bytes());
+        }
+    };
+    vectors(positions);
+    for member in members {
+        vectors(&member.rigid);
+        for side in &member.pair.sides {
+            if let Geometry::Plane { point, normal } = &side.geometry {
+                vectors(&[*point, *normal]);
+            }
+        }
+    }
+    for member in members {
+        for surface in member.pair.sides.iter().filter_map(PairedSurface::surface) {
+            let nodes = surface.nodes().iter().map(|node| node.index());
+            let corners = surface.facets().iter().flatten().map(|node| node.index());
+            for number in nodes.chain(corners) {
+                sum.update(&(number as u64).to_le_bytes());
+            }
+        }
+    }
+    sum.finalize()
 }
 
 /// Names that several pairs have.

@@ -210,7 +210,7 @@ impl Increment {
     /// # Errors
     /// When the evaluation is one of another increment.
     pub fn missed(&self, evaluated: &Evaluated) -> Result<Vec<NodeId>, Faults> {
-        self.own(evaluated, "evaluated")?;
+        self.own(evaluated, "evaluation")?;
         let mut missed = Vec::new();
         for (pair, selection) in self.selections.iter().enumerate() {
             let nodes = Side::BOTH.map(|side| self.contact.nodes(pair, side));
@@ -239,7 +239,7 @@ impl Increment {
     /// # Errors
     /// When the evaluation is one of another increment.
     pub fn reselected(&self, evaluated: &Evaluated) -> Result<Self, Faults> {
-        self.own(evaluated, "evaluated")?;
+        self.own(evaluated, "evaluation")?;
         let (contact, x) = (&self.contact, &evaluated.x);
         let ends = (&self.start, &self.imposed);
         let latest = |pair| self.at(pair, x);
@@ -273,7 +273,7 @@ impl Increment {
     /// # Errors
     /// When the evaluation is one of another increment.
     pub fn accept(&self, evaluated: &Evaluated) -> Result<State, Faults> {
-        self.own(evaluated, "evaluated")?;
+        self.own(evaluated, "evaluation")?;
         let after = |pair: usize| {
             let (tractions, evaluation) = (&evaluated.tractions[pair], &evaluated.pairs[pair]);
             let friction = &self.contact.members()[pair].friction;
@@ -290,6 +290,7 @@ impl Increment {
             placements: self.imposed.placements.clone(),
             pairs: (0..self.contact.pair_count()).map(after).collect(),
             time: self.time(),
+            checksum: self.contact.checksum(),
         })
     }
 

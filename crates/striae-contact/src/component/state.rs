@@ -17,6 +17,8 @@ pub struct State {
     pub(super) pairs: Vec<PairState>,
     /// Sum of the durations of the increments, as far as they have one.
     pub(super) time: f64,
+    /// Checksum of the surfaces that it is a state of.
+    pub(super) checksum: u32,
 }
 
 impl Contact {
@@ -28,6 +30,7 @@ impl Contact {
             placements: vec![Placement::at_rest(); self.pair_count()],
             pairs: members.map(|of| PairState::untouched(&of.pair)).collect(),
             time: 0.0,
+            checksum: self.checksum(),
         }
     }
 }
@@ -51,7 +54,8 @@ impl State {
     /// Returns whether it is a state of these surfaces.
     pub(super) fn fits(&self, contact: &Contact) -> bool {
         let pairs = contact.members().iter();
-        self.positions.len() == contact.node_count()
+        self.checksum == contact.checksum()
+            && self.positions.len() == contact.node_count()
             && self.placements.len() == contact.pair_count()
             && self.pairs.len() == contact.pair_count()
             && self.pairs.iter().zip(pairs).all(|(state, member)| {

@@ -63,6 +63,21 @@ pub enum Violation {
          friction by rate and state"
     )]
     FactorSteepAtRest(String),
+    /// A factor jumps with the pressure or the slip rate.
+    #[error(
+        "the factor jumps by {change:.3e} where the {by} is {value:.6e}, at {at}: equilibrium may \
+         have no solution there; make it pass from one value to the other over a range of the {by}"
+    )]
+    FactorJumps {
+        /// Its argument, in words.
+        by: &'static str,
+        /// Value of the argument at the jump.
+        value: f64,
+        /// Change of the factor there.
+        change: f64,
+        /// Point in words.
+        at: String,
+    },
     /// A factor differs between the two surfaces, or turns with them.
     #[error(
         "the factor changes by {0:.3e} as seen from the other surface, or with a rotation of normal \

@@ -5,10 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from ._described import described
+
 if TYPE_CHECKING:
     from ._run import Run
 
 
+@described
 class Fault(NamedTuple):
     """One fault of a model: the part it concerns, and a message."""
 

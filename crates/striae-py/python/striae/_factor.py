@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from . import _check as check
 from ._check import Floats
+from ._described import described
 from ._errors import ModelError, refuse
 
 #: Largest number of state variables.
@@ -22,6 +23,7 @@ STEP = 6e-6
 LEAST = 1e-3
 
 
+@described
 class FactorPoints(NamedTuple):
     """Points of a contact surface at the end of an increment, for :meth:`Friction.with_factor`.
 
@@ -43,18 +45,21 @@ class FactorPoints(NamedTuple):
     normal: Floats
     """Outward unit normal of the surface that carries the point, of shape (n, 3)."""
     texture: Floats
-    """Direction ``a = n x s`` of its texture, of shape (n, 3); zero without one."""
+    """Direction ``a = n x s`` of its texture, of shape (n, 3) (no unit); zero without one, and not
+    a number where the law has been made with ``textures="none"``."""
     opposite_texture: Floats
-    """Direction of the texture of the other surface for this normal, ``-a``, of shape (n, 3); zero
-    without one."""
+    """Direction of the texture of the other surface for this normal, ``-a``, of shape (n, 3) (no
+    unit); zero without one, and not a number where the law has been made with
+    ``textures="none"``."""
     state: Floats
-    """State, of shape (n, m)."""
+    """State, of shape (n, m) (units of its start)."""
     time: float
-    """Time at the end of the increment."""
+    """Time at the end of the increment (time)."""
     duration: float
     """Duration of the increment (time)."""
 
 
+@described
 class FactorSlopes(NamedTuple):
     """Factors with their derivatives, as an answer of a function of :meth:`Friction.with_factor`."""
 
@@ -68,6 +73,7 @@ class FactorSlopes(NamedTuple):
     """Derivatives by the state at the end of the increment, of shape (n, m)."""
 
 
+@described
 class StateSlopes(NamedTuple):
     """States with their derivatives, as an answer of a function of :meth:`Friction.with_factor`."""
 
@@ -93,6 +99,7 @@ class Functions:
         update: Optional[StateFunction],
         size: int,
         scales: Sequence[float],
+        textured: bool,
     ) -> None:
         self.name = name
         self.factor = factor
@@ -101,6 +108,8 @@ class Functions:
         self.size = size
         #: Largest pressure and slip rate.
         self.scales = scales
+        #: `True` if they see textures.
+        self.textured = textured
         #: `True` if they state derivatives, as far as is known.
         self.stated = True
 
@@ -150,8 +159,7 @@ class Functions:
     def _factors(self, at: FactorPoints) -> Floats:
         """Answer by stated derivatives, and by differences where there are none."""
         count = len(at.pressure)
-        textured = bool(np.any(at.texture) or np.any(at.opposite_texture))
-        if self.stated and not textured:
+        if self.stated and not self.textured:
             state, of_state = self._states(at)
             value, of_factor = self._value(at._replace(state=state))
             if of_state is not None and of_factor is not None:
@@ -164,9 +172,9 @@ class Functions:
                 return found
             # From now on one call with all shifted points is enough.
             self.stated = False
-        return self._differences(at, textured)
+        return self._differences(at)
 
-    def _differences(self, at: FactorPoints, textured: bool) -> Floats:
+    def _differences(self, at: FactorPoints) -> Floats:
         """Answer by central differences, one-sided where pressure or slip rate end at zero."""
         shifted: list[FactorPoints] = [at]
         widths: list[Floats] = []
@@ -180,7 +188,7 @@ class Functions:
                 shifted.append(moved._replace(slip=moved.slip_rate * at.duration))
             widths.append(high - low)
             columns.append(column)
-        if textured:
+        if self.textured:
             for first, field in ((3, "normal"), (6, "texture"), (9, "opposite_texture")):
                 value = getattr(at, field)
                 present = np.any(value != 0.0, axis=1)

@@ -12,6 +12,7 @@ import numpy.typing as npt
 from . import _check as check
 from . import _striae as native
 from ._check import Floats
+from ._described import described
 from ._errors import refuse
 from ._friction import Friction
 from ._laws import FITTED, Tabulated
@@ -20,6 +21,7 @@ from ._mesh import frozen
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+@described
 class Measurements(NamedTuple):
     """Measured friction, as :func:`fit_friction` takes it."""
 

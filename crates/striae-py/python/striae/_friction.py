@@ -16,6 +16,7 @@ from . import _check as check
 from . import _striae as native
 from ._check import Floats, Values
 from ._dependences import Dependences
+from ._described import described
 from ._errors import refuse
 from ._factor import LARGEST_STATE, FactorFunction, Functions, StateFunction
 from ._made import Recipe, listed
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
 
+@described
 class SlipSurface(NamedTuple):
     """Friction of a slipping contact, sampled over all directions, per unit of pressure.
 
@@ -144,9 +146,9 @@ class Friction(Dependences):
 
         The law is held against mechanics first, at random points up to the largest values that are
         given: the factor is not negative, its product with the pressure does not fall with the
-        pressure, its slope by the slip rate is finite at rest, both surfaces see the same factor,
-        derivatives are right, and a state neither changes in no time nor depends on how time is
-        divided. Otherwise one :class:`ModelError` says what is wrong. During a run a negative
+        pressure, it does not jump with pressure or slip rate, its slope by the slip rate is finite
+        at rest, both surfaces see the same factor, derivatives are right, and a state neither
+        changes in no time nor depends on how time is divided. Otherwise one :class:`ModelError` says what is wrong. During a run a negative
         factor or an exception ends the run, and the message names the law.
 
         factor: from points to factors, of shape (n,), or :class:`FactorSlopes`.
@@ -181,7 +183,7 @@ class Friction(Dependences):
             "duration": duration,
         }
         ranges = [check.positive(value, path) for path, value in scales.items()]
-        functions = Functions(law, factor, update, len(start), ranges[:2])
+        functions = Functions(law, factor, update, len(start), ranges[:2], which != "none")
         found = self._native.with_factor(
             law, functions.factors, functions.states, start, ranges, which
         )

@@ -15,6 +15,7 @@ from . import _check as check
 from . import _striae as native
 from ._body import Body, BodySet
 from ._cavity import Cavity
+from ._described import described
 from ._errors import refuse
 from ._everything import FEATURE_ANGLE, Everything, Excluded, Surface
 from ._friction import Friction
@@ -62,6 +63,7 @@ class Solver(Strict):
         )
 
 
+@described
 class Fit(NamedTuple):
     """Initial fit of the meshes of a pair."""
 
@@ -75,6 +77,7 @@ class Fit(NamedTuple):
     """Smallest distance between the sides, whether they face each other or not (length)."""
 
 
+@described
 class Check(NamedTuple):
     """Findings of :meth:`Model.check`."""
 
@@ -86,6 +89,7 @@ class Check(NamedTuple):
     """Warnings: settings that are likely to be unintended."""
 
 
+@described
 class Remark(NamedTuple):
     """One remark on a model before it is run."""
 
@@ -98,6 +102,7 @@ class Remark(NamedTuple):
     """Text of the remark."""
 
 
+@described
 class Advice(NamedTuple):
     """Findings of :meth:`Model.advice`, those of ``striae check`` for a deck."""
 

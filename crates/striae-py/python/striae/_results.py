@@ -14,6 +14,7 @@ import numpy.typing as npt
 
 from . import _striae as native
 from ._check import Floats, Ints
+from ._described import described
 from ._mesh import Mesh, frozen
 
 if TYPE_CHECKING:
@@ -35,29 +36,30 @@ class Status(IntEnum):
     """In contact and slipping."""
 
 
+@described
 class Energies(NamedTuple):
     """Energies since the start (force times length)."""
 
     kinetic: float
-    """Kinetic energy."""
+    """Kinetic energy (force times length)."""
     strain: float
-    """Stored elastic energy."""
+    """Stored elastic energy (force times length)."""
     external: float
-    """Work of reactions, loads and moving rigid bodies."""
+    """Work of reactions, loads and moving rigid bodies (force times length)."""
     actuation: float
-    """Work of changes of stress-free strains and tensions of the bodies."""
+    """Work of changes of stress-free strains and tensions of the bodies (force times length)."""
     inelastic: float
-    """Work dissipated by viscous and plastic flow in the bodies."""
+    """Work dissipated by viscous and plastic flow in the bodies (force times length)."""
     friction: float
-    """Work dissipated by friction."""
+    """Work dissipated by friction (force times length)."""
     contact: float
-    """Work of contact forces beyond friction."""
+    """Work of contact forces beyond friction (force times length)."""
     stabilisation: float
-    """Work lost to stabilisation."""
+    """Work lost to stabilisation (force times length)."""
     numerical: float
-    """Work lost to time integration."""
+    """Work lost to time integration (force times length)."""
     imbalance: float
-    """Work of external forces and actuation that the other energies do not account for."""
+    """Work of external forces and actuation that the other energies do not account for (force times length)."""
 
 
 class BodyResults:
@@ -337,6 +339,7 @@ class PairResults:
         return f"<results of pair {self.name!r}>"
 
 
+@described
 class RigidResults(NamedTuple):
     """Results of a rigid body."""
 
@@ -350,6 +353,7 @@ class RigidResults(NamedTuple):
     """Torque that drives or holds it, of shape (3,) (force times length)."""
 
 
+@described
 class TieResults(NamedTuple):
     """Results of a tie."""
 
@@ -373,6 +377,7 @@ class TieResults(NamedTuple):
     (no unit)."""
 
 
+@described
 class SpringResults(NamedTuple):
     """Results of springs."""
 
@@ -386,6 +391,7 @@ class SpringResults(NamedTuple):
     """Force on end ``a``, of shape (3,) (force)."""
 
 
+@described
 class CavityResults(NamedTuple):
     """Results of a cavity."""
 

@@ -13,6 +13,7 @@ import numpy as np
 
 from . import _check as check
 from ._check import Floats
+from ._described import described
 from ._errors import RunWarning, SweepError, refuse
 from ._model import Model
 from ._processes import Workers
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from pandas import DataFrame
 
 
+@described
 class SweepPoint(NamedTuple):
     """One combination of parameters and its run."""
 

@@ -31,6 +31,7 @@ import numpy.typing as npt
 from . import _check as check
 from . import _striae as native
 from ._check import Floats, Ints, Vector
+from ._described import described
 from ._errors import refuse
 from ._friction import Friction
 from ._made import Made
@@ -214,6 +215,7 @@ class State:
         return tuple(self._native.dissipated())
 
 
+@described
 class Kept(NamedTuple):
     """A node with traction unknowns."""
 

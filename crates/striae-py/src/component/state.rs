@@ -9,7 +9,7 @@ use crate::{
 };
 
 /// First bytes of a stored state, which change with its form.
-const FORM: &[u8] = b"striae contact 1\n";
+const FORM: &[u8] = b"striae contact 2\n";
 
 /// A state.
 #[pyclass(frozen, module = "striae._striae")]

@@ -1,7 +1,8 @@
 //! Judgement of factors of one's own, at random points within the range of the law.
 //!
-//! Factors are finite and not negative, the same from both surfaces and after a rotation, with
-//! slopes by the slip rate that are finite at rest; `p F` does not fall with the pressure;
+//! Factors are finite and not negative, the same from both surfaces and after a rotation,
+//! continuous in pressure and slip rate, with slopes by the slip rate that are finite at rest;
+//! `p F` does not fall with the pressure;
 //! derivatives are exact by the order of finite differences; states are those of an evolution in
 //! time: they do not change in no time, and two halves of an increment lead to the state of the
 //! whole with an error of second order in its length.
@@ -29,6 +30,15 @@ const QUARTERINGS: i32 = 12;
 /// Least factor by which it falls with each, twice in a row; 16 for second order.
 const FALL: f64 = 6.0;
 
+/// Pressures and slip rates over the largest between which jumps are looked for.
+const GRID: [f64; 12] = [
+    1e-6, 1e-4, 1e-2, 0.05, 0.1, 0.2, 0.3, 0.45, 0.6, 0.75, 0.9, 1.0,
+];
+/// Halvings of an interval with a change: they leave 1e-13 of it.
+const HALVINGS: usize = 44;
+/// Change of a factor in what is left of an interval, over its size, that is a jump.
+const JUMP: f64 = 1e-6;
+
 /// Everything a factor gets wrong, for laws that see the textures of some surfaces.
 pub(super) fn violations(law: &dyn FactorBatch, textures: RequiredTextures) -> Vec<Violation> {
     let mut random = Random::new(13);
@@ -46,6 +56,7 @@ pub(super) fn violations(law: &dyn FactorBatch, textures: RequiredTextures) -> V
         ];
         wrong.extend(judged.into_iter().filter_map(Result::err));
     }
+    wrong.extend(is_continuous(law, textures, &mut random).err());
     if !law.initial_state().is_empty() {
         wrong.extend(evolves(law, textures, &mut random).err());
     }
@@ -84,6 +95,83 @@ fn is_smooth_at_rest(law: &dyn FactorBatch, points: &FactorPoints) -> Result<(),
         }
     }
     Ok(())
+}
+
+/// Halves the interval in which a factor changes most until nothing but a jump can be left.
+fn is_continuous(
+    law: &dyn FactorBatch,
+    textures: RequiredTextures,
+    random: &mut Random,
+) -> Result<(), Violation> {
+    let points = samples(law, textures, 1.0, random).map_err(Violation::Factor)?;
+    let range = law.range();
+    let with_pressure = |values: Vec<f64>| FactorPoints {
+        pressure: values,
+        ..points.clone()
+    };
+    let with_rate = |values: Vec<f64>| FactorPoints {
+        slip_rate: values,
+        ..points.clone()
+    };
+    type Posed<'a> = &'a dyn Fn(Vec<f64>) -> FactorPoints;
+    let arguments: [(&'static str, f64, Posed); 2] = [
+        ("pressure", range.pressure, &with_pressure),
+        ("slip rate", range.slip_rate, &with_rate),
+    ];
+    for (by, largest, posed) in arguments {
+        let values = |at: Vec<f64>| {
+            let found = sound_factors(law, &posed(at)).map_err(Violation::Factor)?;
+            Ok::<Vec<f64>, Violation>(found.iter().map(|factor| factor.value).collect())
+        };
+        let mut intervals: Vec<[(f64, f64); 2]> = Vec::new();
+        let mut last: Option<Vec<(f64, f64)>> = None;
+        for share in GRID {
+            let at = share * largest;
+            let found = values(vec![at; points.len()])?;
+            let ends: Vec<(f64, f64)> = found.into_iter().map(|value| (at, value)).collect();
+            if let Some(last) = last.replace(ends.clone()) {
+                let next: Vec<[(f64, f64); 2]> =
+                    last.into_iter().zip(ends).map(|(a, b)| [a, b]).collect();
+                match intervals.is_empty() {
+                    true => intervals = next,
+                    false => keep_larger(&mut intervals, next),
+                }
+            }
+        }
+        for _ in 0..HALVINGS {
+            let middles: Vec<f64> = intervals.iter().map(|[a, b]| 0.5 * (a.0 + b.0)).collect();
+            let found = values(middles.clone())?;
+            let middles = middles.into_iter().zip(found);
+            let halves = intervals.iter().zip(middles);
+            let (lower, upper) = halves.map(|([a, b], m)| ([*a, m], [m, *b])).unzip();
+            intervals = lower;
+            keep_larger(&mut intervals, upper);
+        }
+        let is_jump = |interval: &[(f64, f64); 2]| change(interval) > JUMP * interval[0].1.max(1.0);
+        if let Some(at) = intervals.iter().position(is_jump) {
+            let [(value, before), (_, after)] = intervals[at];
+            return Err(Violation::FactorJumps {
+                by,
+                value,
+                change: after - before,
+                at: points.told(at),
+            });
+        }
+    }
+    Ok(())
+}
+
+fn change([low, high]: &[(f64, f64); 2]) -> f64 {
+    (high.1 - low.1).abs()
+}
+
+/// Replaces intervals by others in which more changes.
+fn keep_larger(intervals: &mut [[(f64, f64); 2]], others: Vec<[(f64, f64); 2]>) {
+    for (kept, other) in intervals.iter_mut().zip(others) {
+        if change(&other) > change(kept) {
+            *kept = other;
+        }
+    }
 }
 
 fn is_the_same_from_both_sides(

@@ -150,7 +150,21 @@ fn negative_and_infinite_factors_are_refused_when_they_are_made() {
 
 #[test]
 fn the_battery_says_what_is_wrong_with_a_factor() {
-    let wrong: [(Made, Expected); 7] = [
+    let wrong: [(Made, Expected); 9] = [
+        (
+            of(|at, _| FactorLane::from(if at.pressure.re > 4.0 { 1.5 } else { 1.0 })),
+            |found| {
+                matches!(found, Violation::FactorJumps { by: "pressure", value, change, .. }
+                if (value - 4.0).abs() < 1e-9 && (change - 0.5).abs() < 1e-9)
+            },
+        ),
+        (
+            of(|at, _| FactorLane::from(if at.slip_rate.re > 0.02 { 0.5 } else { 1.0 })),
+            |found| {
+                matches!(found, Violation::FactorJumps { by: "slip rate", value, .. }
+                if (value - 0.02).abs() < 1e-9)
+            },
+        ),
         (
             of(|at, _| (at.pressure * at.pressure + 1.0).recip()),
             |found| matches!(found, Violation::FactorFallsWithPressure(_)),
