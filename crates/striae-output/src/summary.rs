@@ -130,8 +130,8 @@ pub struct PairSummary {
     pub resultant_b: [f64; 3],
     /// Integral of the pressure over surface `a`; in self-contact over one of the walls.
     pub pressure_integral: f64,
-    /// Length of the sum of both resultants over that of the larger; in self-contact of the sum
-    /// of all forces over the integral of the pressure.
+    /// Length of the sum of both resultants over the load, of the integrals of pressure and
+    /// friction.
     pub mismatch: f64,
     /// Sticking nodes.
     pub stick: usize,

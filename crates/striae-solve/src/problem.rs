@@ -49,7 +49,7 @@ use crate::{
 use contact_facet::contact_facets;
 use deformable::deformable;
 use painted::painted;
-use shared_nodes::shared_nodes;
+use shared_nodes::{refuse_twice_collocated, shared_nodes};
 
 /// A model with what follows from it.
 #[derive(Clone, Debug)]
@@ -200,6 +200,20 @@ pub enum ProblemError {
         /// The rigid body.
         rigid: String,
     },
+    /// Two pairs, one of them collocated, that hold a node against the same surface.
+    #[error(
+        "pairs `{first}` and `{second}` share {node} of `{body}` and press it on the same surface, but the nodes of a collocated pair belong to it alone: make one pair of both, or use weighted contact for both"
+    )]
+    SharedCollocated {
+        /// Name of a pair.
+        first: String,
+        /// Name of the other one.
+        second: String,
+        /// Body with the node.
+        body: String,
+        /// The node.
+        node: NodeId,
+    },
     /// Springs in a model that ranks share.
     #[error(
         "spring `{spring}`: springs cannot be divided among several processes; run the model in one process, or remove its springs"
@@ -274,12 +288,14 @@ impl Problem {
         let links = crate::spring::links(&model, &first_node, (&mut reference, &mut tied));
         massless.resize(reference.len(), false);
         let tie_of = tie_of(&tied, reference.len());
+        let shared_nodes = shared_nodes(&pairs, &first_node, &reference);
+        refuse_twice_collocated(&shared_nodes, &pairs, &model)?;
         let plans = plans(&model);
         let at = (&reference[..], &plans[..]);
         Ok(Self {
             cavities: crate::cavity::surfaces(&model, &first_node, at),
             contact_facets: contact_facets(&pairs),
-            shared_nodes: shared_nodes(&pairs, &first_node, &reference),
+            shared_nodes,
             masses: masses(&model, &elements, &compositions, (&first_node, &massless)),
             massless,
             plans,

@@ -28,9 +28,9 @@ pub struct PairReport {
     pub name: String,
     /// Resultants of the two sides.
     pub sides: [SideReport; 2],
-    /// Length of the sum of both resultants over the larger of them.
+    /// Length of the sum of both resultants over the [load](Self::load).
     pub mismatch: f64,
-    /// Length of the sum of both moments, over the larger resultant times the size of the contact zone.
+    /// Length of the sum of both moments, over the load times the root of the covered area.
     pub moment_mismatch: f64,
     /// Sticking nodes of both sides.
     pub stick: usize,
@@ -42,6 +42,14 @@ pub struct PairReport {
     pub max_pressure: f64,
     /// Friction work since the start.
     pub dissipated: f64,
+}
+
+impl PairReport {
+    /// Load that the pair transmits, `|(integral p da, integral |tau| da)|` of the side with more
+    /// of it: unlike resultants, it does not vanish where contact is all round a body.
+    pub fn load(&self) -> f64 {
+        self.sides.iter().map(SideReport::load).fold(0.0, f64::max)
+    }
 }
 
 /// Integrals over one side of a pair. In self-contact side `a` has the forces on both walls, which
@@ -62,6 +70,12 @@ pub struct SideReport {
     pub pressed: f64,
     /// Centre of pressure: `integral p x da` over that of `p`; zero without pressure.
     pub centre: Vec3,
+}
+
+impl SideReport {
+    fn load(&self) -> f64 {
+        self.pressure.hypot(self.friction)
+    }
 }
 
 /// Reports of all pairs.
@@ -228,7 +242,6 @@ fn report(problem: &Problem, state: &State, pair: usize) -> PairReport {
     } else {
         side(problem, state, pair, Side::B)
     };
-    let mut largest = a.force.norm().max(b.force.norm());
     if is_self_contact {
         // Both walls are on side `a`, and their forces cancel: what one of them transmits.
         for sum in [
@@ -239,8 +252,8 @@ fn report(problem: &Problem, state: &State, pair: usize) -> PairReport {
         ] {
             *sum *= 0.5;
         }
-        largest = a.pressure;
     }
+    let largest = a.load().max(b.load());
     let arm = a.area.max(b.area).sqrt();
     let over = |value: f64, scale: f64| if scale > 0.0 { value / scale } else { 0.0 };
     let nodes: Vec<&NodeResult> = of_pair.nodes.iter().flatten().collect();

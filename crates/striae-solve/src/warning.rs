@@ -8,7 +8,7 @@
 //!
 //! | kind | value | limit |
 //! | --- | --- | --- |
-//! | `mismatch` | sum of the resultants over the largest force of the pair so far | 1e-6 |
+//! | `mismatch` | sum of the resultants over the largest load of the pair so far, see [`crate::report::PairReport::load`] | 1e-6 |
 //! | `moment` | sum of the moments over the same and the size of the contact zone | 1e-2 |
 //! | `tension` | tensile nodal pressure over the largest pressure of the pair so far | 1e-6 |
 //! | `penetration` | depth over the size of the smaller facets there, see [`crate::interference`] | 0.1 |
@@ -202,8 +202,8 @@ impl Kind {
 pub struct Judgement {
     /// The worst of every kind and pair.
     pub worst: Vec<Worst>,
-    /// Largest force of every pair.
-    pub forces: Vec<f64>,
+    /// Largest load of every pair.
+    pub loads: Vec<f64>,
     /// Largest pressure of every pair.
     pub pressures: Vec<f64>,
     /// Largest energy.
@@ -275,7 +275,7 @@ impl Judgement {
         interferences: &[Vec<Interference>],
         overlaps: &[BodyOverlap],
     ) {
-        self.forces.resize(problem.pairs.len(), 0.0);
+        self.loads.resize(problem.pairs.len(), 0.0);
         self.pressures.resize(problem.pairs.len(), 0.0);
         let least = round_off(problem);
         let energies = &after.energies;
@@ -355,15 +355,11 @@ impl Judgement {
         report: &PairReport,
         [before, after]: [&State; 2],
     ) {
-        let force = report
-            .sides
-            .iter()
-            .map(|side| side.force.norm())
-            .fold(0.0, f64::max);
-        if force > self.forces[pair] {
+        let load = report.load();
+        if load > self.loads[pair] {
             self.coarse(problem, pair, after);
         }
-        self.forces[pair] = self.forces[pair].max(force);
+        self.loads[pair] = self.loads[pair].max(load);
         self.pressures[pair] = self.pressures[pair].max(report.max_pressure);
         let nodes = after.pairs[pair].nodes.iter().flatten();
         let tension = nodes.map(|node| -node.pressure).fold(0.0, f64::max);
@@ -371,7 +367,7 @@ impl Judgement {
         let noise = pressure_of_round_off(problem, pair);
         let pressures = self.pressures[pair].max(noise);
         let area = report.sides[0].area.max(report.sides[1].area);
-        let share = over(force, self.forces[pair].max(noise * area));
+        let share = over(load, self.loads[pair].max(noise * area));
         for (kind, value) in [
             (Kind::Mismatch, report.mismatch * share),
             (Kind::Moment, report.moment_mismatch * share),
@@ -496,7 +492,7 @@ impl Judgement {
                     .iter()
                     .any(|w| w.pair.as_ref() == Some(&model.pairs[pair].name));
                 let is_expected = model.pairs[pair].is_expected_to_touch();
-                let is_unloaded = self.forces.get(pair).is_none_or(|force| *force == 0.0);
+                let is_unloaded = self.loads.get(pair).is_none_or(|load| *load == 0.0);
                 if is_expected && is_unloaded && !named {
                     worst.push(Worst {
                         kind: Kind::NeverTouched,
@@ -656,10 +652,10 @@ fn warning(problem: &Problem, worst: &Worst) -> Warning {
     let percent = 100.0 * value;
     let text = match kind {
         Kind::Mismatch => format!(
-            "pair `{name}`: the forces on its sides differ by {value:.1e} of the force at time {time:.4}"
+            "pair `{name}`: the forces on its sides differ by {value:.1e} of the load at time {time:.4}"
         ),
         Kind::Moment => format!(
-            "pair `{name}`: the moments on its sides differ by {value:.1e} of force times size at time {time:.4}"
+            "pair `{name}`: the moments on its sides differ by {value:.1e} of load times size at time {time:.4}"
         ),
         Kind::Tension => format!(
             "pair `{name}`: contact is tensile by {value:.1e} of the largest pressure at time {time:.4}"

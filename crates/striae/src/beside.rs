@@ -7,6 +7,8 @@
 //! DIR/law-PAIR-coefficient.svg the same over what else they depend on
 //! ```
 
+use std::path::Path;
+
 use striae_files::{read_text, write_atomically};
 use striae_law::friction::{Analysis, Law};
 use striae_solve::model::Model;
@@ -28,6 +30,14 @@ pub(crate) fn write(recording: &Recording, model: &Model) -> Result<(), Error> {
     if let Some(Ok(text)) = source.map(|source| read_text(&source.path)) {
         write_atomically(&folder.join("deck.toml"), text.as_bytes())?;
     }
+    write_frictions(folder, model)
+}
+
+/// Writes the pictures of the friction of a model to a folder.
+///
+/// # Errors
+/// When a file cannot be written.
+pub fn write_frictions(folder: &Path, model: &Model) -> Result<(), Error> {
     for named in frictions(model) {
         let angles: &[f64] = match named.friction.law() {
             Law::Frictionless => continue,

@@ -209,6 +209,7 @@ mod results;
 pub mod sensitivity;
 mod simulation;
 
+pub use beside::write_frictions;
 pub use error::Error;
 pub use interrupt::{Before, Interrupt};
 pub use nalgebra;

@@ -256,8 +256,8 @@ class PairResults:
 
     @property
     def mismatch(self) -> float:
-        """Magnitude of the sum of the forces on both sides, relative to the larger one (no
-        unit)."""
+        """Magnitude of the sum of the forces on both sides, relative to the load, of the integrals
+        of pressure and friction (no unit)."""
         return float(self._whole["mismatch"])
 
     @property

@@ -14,6 +14,7 @@ use striae::{
         norms::Norms,
         state::State,
     },
+    write_frictions,
 };
 
 use striae_report::{
@@ -28,7 +29,10 @@ use crate::fault::{raised, refused};
 /// those after so many increments each (0: the last only).
 pub fn write(run: &Run, folder: &Path, case: &str, fields_every: usize) -> PyResult<()> {
     let written = replayed(run, folder, case, fields_every);
-    written.map_err(|error| raised(Error::Output(error), "run"))
+    let model = &run.finished.problem.model;
+    let written = written.map_err(Error::Output);
+    let written = written.and_then(|()| write_frictions(folder, model));
+    written.map_err(|error| raised(error, "run"))
 }
 
 fn replayed(run: &Run, folder: &Path, case: &str, every: usize) -> Result<(), OutputError> {

@@ -4,12 +4,14 @@
 //! the same surface if they are one node of a body, with a common facet or with normals at rest
 //! that differ by less than [`SHARP`]. Across a sharp edge they belong to two faces.
 
-use striae_contact::side::Side;
+use std::collections::BTreeMap;
+
+use striae_contact::{pair::Enforcement, side::Side};
 use striae_mesh::{NodeId, Vec3};
 use striae_surface::{node::SurfaceNode, normal::nodal_normals, topology::Surface};
 
-use super::PairGeometry;
-use crate::node::GlobalNode;
+use super::{PairGeometry, ProblemError};
+use crate::{model::Model, node::GlobalNode};
 
 /// Cosine of the angle between normals at rest beyond which nodes belong to two faces, 45 degrees
 /// as between faces that touch without being named.
@@ -39,6 +41,53 @@ impl Seen {
         let mut facets = self.facets.iter();
         self.normal.dot(&other.normal) > SHARP || facets.any(|facet| other.facets.contains(facet))
     }
+}
+
+/// Refuses two pairs, one of them collocated, that share nodes on both sides, or on one against the
+/// same rigid surface: the rows of a collocated node would state twice that it lies there.
+pub(super) fn refuse_twice_collocated(
+    places: &[Vec<PairNode>],
+    pairs: &[PairGeometry],
+    model: &Model,
+) -> Result<(), ProblemError> {
+    let is_collocated =
+        |at: &PairNode| pairs[at.pair].contact.enforcement == Enforcement::Collocated;
+    let opposite = |at: &PairNode| {
+        let geometry = &pairs[at.pair];
+        (geometry.bodies[at.side.opposite()], geometry.rigid)
+    };
+    let mut shared: BTreeMap<[usize; 2], [bool; 2]> = BTreeMap::new();
+    for place in places {
+        for (number, first) in place.iter().enumerate() {
+            let others = place[number + 1..].iter();
+            let others = others.filter(|second| {
+                second.pair != first.pair
+                    && opposite(second) == opposite(first)
+                    && (is_collocated(first) || is_collocated(second))
+            });
+            let (Some(body), Some(surface)) = (
+                pairs[first.pair].bodies[first.side],
+                pairs[first.pair].contact.sides[first.side].surface(),
+            ) else {
+                continue;
+            };
+            for second in others {
+                let of_both = shared.entry([first.pair, second.pair]).or_default();
+                of_both[first.side] = true;
+                let is_rigid = pairs[first.pair].rigid.is_some();
+                if is_rigid || of_both[first.side.opposite()] {
+                    let name = |pair: usize| model.pairs[pair].name.clone();
+                    return Err(ProblemError::SharedCollocated {
+                        first: name(first.pair),
+                        second: name(second.pair),
+                        body: model.bodies[body].name.clone(),
+                        node: surface.nodes()[first.node.index()],
+                    });
+                }
+            }
+        }
+    }
+    Ok(())
 }
 
 /// Nodes of all pairs that are the same place of the same surface, place by place; those that one

@@ -1,10 +1,11 @@
 //! Pairs that hold the same positions: faces of one body that stand on one surface in two pairs.
 
-use striae_contact::side::Side;
+use striae_contact::{pair::Enforcement, side::Side};
 use striae_mesh::{Face, NodeId, Vec3};
 use striae_solve::{
     model::{ContactSurface, Curve, LoadExtent, LoadKind, Model, Pair, RigidShape},
     outcome::Ending,
+    problem::Problem,
     report::pairs,
     state::State,
 };
@@ -104,6 +105,23 @@ fn two_pairs_on_one_plane_are_as_one() {
                 "{most} and {most_of_two}"
             );
         }
+    }
+}
+
+#[test]
+fn a_border_between_collocated_pairs_is_refused() {
+    for collocated in [[true, true], [true, false], [false, true]] {
+        let mut model = divided(on_plane([4, 2, 2]), Side::A, 0.5);
+        for (pair, is_collocated) in model.pairs.iter_mut().zip(collocated) {
+            if is_collocated {
+                pair.enforcement = Enforcement::Collocated;
+            }
+        }
+        let refused = Problem::new(model).err();
+        let told = refused.map_or_else(String::new, |error| error.to_string());
+        let expected = "pairs `left` and `right` share node 2 of `block` and press it on the same \
+                        surface";
+        assert!(told.starts_with(expected), "{told}");
     }
 }
 
