@@ -69,17 +69,10 @@ impl PairState {
             .each_ref()
             // The unknown is `z = -tau`.
             .map(|side| side.iter().map(|[_, t1, t2]| [-t1, -t2]).collect());
-        let with = |status: Status| {
-            let of_side = |side: &Vec<NodeResult>| -> Vec<bool> {
-                side.iter().map(|node| node.status == status).collect()
-            };
-            self.nodes.each_ref().map(of_side)
-        };
-        tractions.stuck = with(Status::Stick);
-        tractions.slipped = match predicted {
-            Predicted::AsBefore => with(Status::Slip),
-            Predicted::Stick => self.nodes.each_ref().map(|side| vec![false; side.len()]),
-        };
+        let slips =
+            |node: &NodeResult| predicted == Predicted::AsBefore && node.status == Status::Slip;
+        let of_side = |side: &Vec<NodeResult>| side.iter().map(slips).collect();
+        tractions.slipped = self.nodes.each_ref().map(of_side);
         let labelled = |side: &Vec<bool>| side.iter().map(|slipped| label(*slipped)).collect();
         tractions.labels = tractions.slipped.each_ref().map(labelled);
         tractions.bedded = self

@@ -4,19 +4,23 @@
 //!
 //! ```text
 //! g_k  += 1/w_k sum_l E_kl p_l
-//! du_k += 1/w_k sum_l R(n_k, s_kl n_l) (F_kl tau_l - F'_kl tau^n_l)
+//! du_k += 1/w_k sum_j sum_l R(n_k, s_kl n_l) F^j_kl (tau_l - m_j tau^n_l)
+//! m_j   = exp(-(sqrt(|du_j|^2 + d^2) - d)/l)
 //! ```
 //!
-//! where `F` is `E` with the signs `s_kl` of friction that is handed on, -1 between nodes that face
-//! each other, and `F'` is the part of `E` of the weak nodes that stuck at the last converged state.
-//! With the increment of friction these do not creep. Where a weak node slips the total counts:
-//! with the increment, `E` would hold friction at the rough pattern it had before, push the
-//! neighbours of weak nodes to the wrong sign in large slips, and let them stick there.
+//! where `F^j` is the part of `E` of the weak node `j` with the signs `s_kl` of friction that is
+//! handed on, -1 between nodes that face each other, and `m_j` is what `j` remembers of the friction
+//! before the increment after its slip `du_j`, without what the ramp adds. At rest the ramp acts on
+//! increments of friction: with the total, nodes would creep at constant load. In slip the total
+//! counts: with the increment, `E` would hold friction at the rough pattern it had before, push the
+//! neighbours of weak nodes to the wrong sign in large slips, and let them stick there. The length
+//! `l` is the displacement by which the friction deformed the support of `j`, so that solutions scale
+//! with the loads. `d` makes `m_j` smooth at rest; apart from it the memory fades by the same share
+//! in one increment of slip and in many.
 
 use nalgebra::Matrix3;
 use rayon::prelude::*;
 use striae_mesh::Vec3;
-use striae_surface::node::SurfaceNode;
 
 use crate::{
     configuration::Configuration,
@@ -25,14 +29,19 @@ use crate::{
     kinematics::{Kinematics, Presence, Pressure},
     places::ChainedSum,
     selection::Selection,
-    side::Side,
     slip_freedom::SlipFreedom,
     tracked::{Tracked, TrackedScalar},
     traction::NodalTractions,
-    traction_basis::coupling,
+    traction_basis::{Weak, coupling},
     transported::Transported,
+    unknown::Jacobian,
     unknowns::Tractions,
 };
+
+/// `l` over the displacement by which the friction before the increment deforms a support.
+const FADING: f64 = 1.0;
+/// `d` over `l`.
+const REST: f64 = 1e-3;
 
 /// Adds what the ramp does to the gaps, and decides the pressures that bound friction:
 /// `P^_k = p_k + r_k (E p)_k/w_k`.
@@ -141,9 +150,26 @@ struct Coupled {
 struct Ramped<'a> {
     frame: &'a Frame,
     friction: &'a Tracked,
-    /// At the last converged state, turned along; none where no weak node around it stuck.
-    before: Option<Tracked>,
+    /// At the last converged state, turned along.
+    before: Tracked,
 }
+
+/// Memory of a weak node.
+struct Memory<'a> {
+    weak: &'a Weak,
+    /// `m_j`.
+    share: f64,
+    /// Its derivative by the slip `du_j`.
+    by_slip: Vec3,
+    /// Derivatives of `du_j`.
+    slip: Jacobian,
+}
+
+/// Rows by place among the kept nodes.
+type Rows = Vec<Vec<Coupled>>;
+
+/// Entries of a row that one memory has a share in.
+type OfMemory<'a> = (&'a Memory<'a>, Vec<Coupled>);
 
 impl Ramp<'_> {
     /// Adds the contribution of the ramp to the slips.
@@ -151,17 +177,20 @@ impl Ramp<'_> {
     /// # Errors
     /// If the facets around a node had collapsed to a line.
     pub fn add_to_slips(&self, kinematics: &mut [Kinematics]) -> Result<(), CollapsedFacets> {
-        let all = self.coupling_of(|_| true);
-        let stuck = self.coupling_of(|(side, node)| self.tractions.stuck[side][node]);
-        let found: Vec<_> = (0..all.len())
+        let memories = self.memories(kinematics);
+        let count = self.selection.coupling().len();
+        let all = rows(&memories, count, |_| 1.0);
+        let remembered = rows(&memories, count, |memory| memory.share);
+        let fading = fading(&memories, count);
+        let found: Vec<_> = (0..count)
             .into_par_iter()
             .with_min_len(8)
-            .map(|k| self.ramped(k, &all[k], &stuck[k]))
+            .map(|k| self.ramped(k, &all[k]))
             .collect();
         let found: Result<Vec<Option<Ramped>>, _> =
             found.into_iter().map(Option::transpose).collect();
         let ramped = found?;
-        kinematics[..all.len()]
+        kinematics[..count]
             .par_iter_mut()
             .enumerate()
             .with_min_len(8)
@@ -171,104 +200,169 @@ impl Ramp<'_> {
                     && kinematics.presence == Presence::Facing
                 {
                     let weight = &supported.weight;
-                    let coupling = [all[k].as_slice(), stuck[k].as_slice()];
-                    self.add(own, &ramped, coupling, weight, &mut kinematics.slip);
+                    let coupling = [all[k].as_slice(), remembered[k].as_slice()];
+                    let slip = &mut kinematics.slip;
+                    add((own, &ramped), coupling, &fading[k], weight, slip);
                 }
             });
         Ok(())
     }
 
-    /// Rows of `F` by those weak nodes at these places of which friction is determined in all
-    /// directions: one that lacks a direction has no ramp.
-    fn coupling_of(&self, counts: impl Fn((Side, SurfaceNode)) -> bool) -> Vec<Vec<Coupled>> {
-        let kept = self.selection.kept();
-        let weak = self.selection.ramp().iter().filter(|weak| {
-            let k = weak.kept as usize;
-            self.selection.slip_freedom(k) == SlipFreedom::Plane && counts(kept[k].place())
-        });
-        let count = self.selection.coupling().len();
-        let pressures = coupling(
-            weak.clone().map(|weak| (weak.coefficient, &weak.row)),
-            count,
-        );
-        let frictions = coupling(
-            weak.map(|weak| (weak.coefficient, &weak.friction_row)),
-            count,
-        );
-        let coupled = |(pressure, friction): (&(u32, f64), (u32, f64))| Coupled {
-            l: friction.0,
-            value: friction.1,
-            facing: match pressure.1 * friction.1 < 0.0 {
-                true => -1.0,
-                false => 1.0,
-            },
-        };
-        let rows = pressures.iter().zip(frictions);
-        rows.map(|(pressures, frictions)| pressures.iter().zip(frictions).map(coupled).collect())
-            .collect()
+    /// Memories of the weak nodes of which friction is determined in all directions: one that lacks
+    /// a direction has no ramp.
+    fn memories(&self, kinematics: &[Kinematics]) -> Vec<Memory<'_>> {
+        let weak = self.selection.ramp().iter();
+        let weak = weak
+            .filter(|weak| self.selection.slip_freedom(weak.kept as usize) == SlipFreedom::Plane);
+        weak.map(|weak| {
+            let Kinematics { slip, presence, .. } = &kinematics[weak.kept as usize];
+            let length = FADING * self.displacement(weak);
+            let rest = REST * length;
+            if *presence != Presence::Facing || length == 0.0 {
+                return Memory {
+                    weak,
+                    share: 0.0,
+                    by_slip: Vec3::zeros(),
+                    slip: Jacobian::new(),
+                };
+            }
+            let path = slip.value.norm().hypot(rest);
+            let share = ((rest - path) / length).exp();
+            Memory {
+                weak,
+                share,
+                by_slip: slip.value * (-share / (length * path)),
+                slip: slip.jacobian.clone(),
+            }
+        })
+        .collect()
     }
 
-    fn ramped(
-        &self,
-        k: usize,
-        all: &[Coupled],
-        stuck: &[Coupled],
-    ) -> Option<Result<Ramped<'_>, CollapsedFacets>> {
+    /// Displacement by which the largest friction that a weak node takes part in deformed its support
+    /// at the last converged state.
+    fn displacement(&self, weak: &Weak) -> f64 {
+        let kept = self.selection.kept();
+        let friction = weak.row.iter().map(|&(l, _)| {
+            let (side, node) = kept[l as usize].place();
+            let [first, second] = self.tractions.tau_n[side][node];
+            first.hypot(second)
+        });
+        self.selection.flexibility(weak.kept as usize) * friction.fold(0.0, f64::max)
+    }
+
+    fn ramped(&self, k: usize, all: &[Coupled]) -> Option<Result<Ramped<'_>, CollapsedFacets>> {
         if all.is_empty() {
             return None;
         }
         let (side, node) = self.selection.kept()[k].place();
         let frame = self.frames[side][node].as_ref()?;
-        let before = (!stuck.is_empty()).then(|| {
-            let components = self.tractions.tau_n[side][node];
-            let at = (side, node);
-            converged_friction(self.configuration, self.start, at, frame, components)
-        });
-        Some(before.transpose().map(|before| Ramped {
+        let components = self.tractions.tau_n[side][node];
+        let at = (side, node);
+        let before = converged_friction(self.configuration, self.start, at, frame, components);
+        Some(before.map(|before| Ramped {
             frame,
             friction: &self.tau[side][node],
             before,
         }))
     }
+}
 
-    fn add(
-        &self,
-        own: &Ramped,
-        ramped: &[Option<Ramped>],
-        [all, stuck]: [&[Coupled]; 2],
-        weight: &TrackedScalar,
-        slip: &mut Tracked,
-    ) {
-        let before = slip.value;
-        let mut sum = ChainedSum::onto(&mut slip.jacobian);
-        let mut by_n = Matrix3::zeros();
-        let mut add = |other: &Ramped, friction: &Tracked, value: f64, facing: f64| {
-            let factor = value / weight.value;
-            let from = other.frame.n.value * facing;
-            let turned = Transported::new(&friction.value, &from, &own.frame.n.value);
-            slip.value += turned.value * factor;
-            by_n += turned.by_n * factor;
-            sum.add(&(turned.by_vector * factor), &friction.jacobian);
-            let by_from = turned.by_from * (factor * facing);
-            sum.add(&by_from, &other.frame.n.jacobian);
-        };
-        for coupled in all {
-            if let Some(other) = &ramped[coupled.l as usize] {
-                add(other, other.friction, coupled.value, coupled.facing);
-            }
+/// Rows of `sum_j f_j F^j`.
+fn rows(memories: &[Memory], count: usize, factor: impl Fn(&Memory) -> f64) -> Rows {
+    let scaled = memories
+        .iter()
+        .map(|memory| (memory.weak, memory.weak.coefficient * factor(memory)));
+    let scaled = scaled.filter(|(_, coefficient)| *coefficient != 0.0);
+    let pressures = coupling(scaled.clone().map(|(weak, c)| (c, &weak.row)), count);
+    let frictions = coupling(scaled.map(|(weak, c)| (c, &weak.friction_row)), count);
+    let rows = pressures.iter().zip(frictions);
+    rows.map(|(pressures, frictions)| {
+        let entries = pressures.iter().zip(frictions);
+        entries
+            .map(|(pressure, (l, value))| Coupled::new(l, value, pressure.1))
+            .collect()
+    })
+    .collect()
+}
+
+/// Rows of each `F^j` whose share changes with the slip.
+fn fading<'a>(memories: &'a [Memory<'a>], count: usize) -> Vec<Vec<OfMemory<'a>>> {
+    let mut fading: Vec<Vec<OfMemory>> = (0..count).map(|_| Vec::new()).collect();
+    for memory in memories.iter().filter(|of| of.by_slip != Vec3::zeros()) {
+        let weak = memory.weak;
+        let entries = || weak.row.iter().zip(&weak.friction_row);
+        for (&(k, of_pressure), &(_, of_friction)) in entries() {
+            let row = entries().map(|(&(l, pressure), &(_, friction))| {
+                let value = weak.coefficient * of_friction * friction;
+                Coupled::new(l, value, of_pressure * pressure)
+            });
+            fading[k as usize].push((memory, row.collect()));
         }
-        for coupled in stuck {
-            if let Some(other) = &ramped[coupled.l as usize]
-                && let Some(before) = &other.before
-            {
-                add(other, before, -coupled.value, coupled.facing);
-            }
+    }
+    fading
+}
+
+impl Coupled {
+    /// Entry of `F` beside that of `E`, for pressure.
+    fn new(l: u32, value: f64, of_pressure: f64) -> Self {
+        Self {
+            l,
+            value,
+            facing: match of_pressure * value < 0.0 {
+                true => -1.0,
+                false => 1.0,
+            },
         }
-        sum.add(&by_n, &own.frame.n.jacobian);
-        drop(sum);
-        let by_weight = (before - slip.value) / weight.value;
-        for (first, slope) in &weight.gradient {
-            slip.jacobian.push((*first, by_weight * slope.transpose()));
+    }
+}
+
+/// Adds the row of a node to its slip.
+fn add(
+    (own, ramped): (&Ramped, &[Option<Ramped>]),
+    [all, remembered]: [&[Coupled]; 2],
+    fading: &[OfMemory],
+    weight: &TrackedScalar,
+    slip: &mut Tracked,
+) {
+    let before = slip.value;
+    let mut sum = ChainedSum::onto(&mut slip.jacobian);
+    let mut by_n = Matrix3::zeros();
+    let turned = |coupled: &Coupled, other: &Ramped, friction: &Tracked| {
+        let from = other.frame.n.value * coupled.facing;
+        Transported::new(&friction.value, &from, &own.frame.n.value)
+    };
+    let mut add = |coupled: &Coupled, other: &Ramped, friction: &Tracked, sign: f64| {
+        let factor = sign * coupled.value / weight.value;
+        let turned = turned(coupled, other, friction);
+        slip.value += turned.value * factor;
+        by_n += turned.by_n * factor;
+        sum.add(&(turned.by_vector * factor), &friction.jacobian);
+        let by_from = turned.by_from * (factor * coupled.facing);
+        sum.add(&by_from, &other.frame.n.jacobian);
+    };
+    for coupled in all {
+        if let Some(other) = &ramped[coupled.l as usize] {
+            add(coupled, other, other.friction, 1.0);
         }
+    }
+    for coupled in remembered {
+        if let Some(other) = &ramped[coupled.l as usize] {
+            add(coupled, other, &other.before, -1.0);
+        }
+    }
+    for (memory, row) in fading {
+        let parts = row.iter().filter_map(|coupled| {
+            let other = ramped[coupled.l as usize].as_ref()?;
+            let factor = coupled.value / weight.value;
+            Some(turned(coupled, other, &other.before).value * factor)
+        });
+        let remembered: Vec3 = parts.sum();
+        sum.add(&(-remembered * memory.by_slip.transpose()), &memory.slip);
+    }
+    sum.add(&by_n, &own.frame.n.jacobian);
+    drop(sum);
+    let by_weight = (before - slip.value) / weight.value;
+    for (first, slope) in &weight.gradient {
+        slip.jacobian.push((*first, by_weight * slope.transpose()));
     }
 }

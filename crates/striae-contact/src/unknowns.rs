@@ -16,8 +16,6 @@ pub struct Tractions {
     pub tau_n: [Vec<[f64; 2]>; 2],
     /// `true` for each node that slipped in the last converged increment, by side.
     pub slipped: [Vec<bool>; 2],
-    /// `true` for each node that stuck in the last converged increment, by side.
-    pub stuck: [Vec<bool>; 2],
     /// Closed share of the support of each node at the last converged state, by side, which its
     /// [bedding](crate::bedding) goes by.
     pub bedded: [Vec<f64>; 2],
@@ -42,7 +40,6 @@ impl Tractions {
         Self {
             nodes: nodes.map(|count| vec![[0.0; 3]; count]),
             slipped: nodes.map(|count| vec![false; count]),
-            stuck: nodes.map(|count| vec![false; count]),
             bedded: nodes.map(|count| vec![0.0; count]),
             accumulated: nodes.map(|count| vec![0.0; count]),
             worn: nodes.map(|count| vec![0.0; count]),

@@ -117,6 +117,11 @@ impl Selection {
         }
     }
 
+    /// `l_k`.
+    pub(crate) fn flexibility(&self, k: usize) -> f64 {
+        self.basis.flexibility[k]
+    }
+
     /// `r_k`, pressure per gap where the support of a kept node is open, at the share of it
     /// that is closed.
     pub fn bedding(&self, k: usize, closed: f64) -> f64 {

@@ -156,10 +156,6 @@ impl<'a> PairFunction<'a> {
             worn: self.counts.map(|count| vec![0.0; count]),
             states: self.counts.map(|count| vec![0.7; count]),
             factors: None,
-            // Every other one, so that both terms of the ramp count.
-            stuck: self
-                .counts
-                .map(|count| (0..count).map(|node| node % 2 == 0).collect()),
             labels,
         }
     }

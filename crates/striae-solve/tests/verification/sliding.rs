@@ -94,6 +94,30 @@ fn two_blocks(order: [usize; 2], depth: f64, slide: [f64; 2]) -> Model {
     model
 }
 
+/// Coulomb friction depends on no time: after a slide, and at loads below it, nothing creeps.
+#[test]
+fn what_has_slid_rests_when_nothing_moves() {
+    for (order, slide) in [([0, 1], [0.05, 0.01]), ([1, 0], [0.02, 0.06])] {
+        let mut model = two_blocks(order, 0.02, slide);
+        let mut hold = step();
+        hold.increments = increments(0.05, 0.05);
+        model.steps.push(hold);
+        let run = Run::completed(model);
+        let count = run.states.len();
+        let forces: Vec<Vec3> = (count - 20..count)
+            .map(|state| report(&run, state).sides[0].force)
+            .collect();
+        let last = forces[19];
+        // Weak nodes take part in the slide by the friction of others, which ends with it.
+        assert!((forces[0] - last).norm() < 5e-3 * last.norm(), "{forces:?}");
+        for force in &forces[10..] {
+            assert!((force - last).norm() < 1e-9 * last.norm(), "{forces:?}");
+        }
+        let [from, to] = [count - 10, count - 1].map(|state| run.states[state].energies.friction);
+        assert!((to - from).abs() <= 1e-9 * to, "{from} {to}");
+    }
+}
+
 #[test]
 fn between_deformable_blocks_the_integrals_obey_the_law_and_balance() {
     for (order, depth) in [([0, 1], 0.02), ([1, 0], 0.002)] {
