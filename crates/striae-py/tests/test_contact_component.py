@@ -143,7 +143,7 @@ def test_a_state_continues_after_storage_to_the_bit() -> None:
 def test_friction_by_rate_and_state_needs_a_duration() -> None:
     law = st.Coulomb(MU).with_ageing_law(0.01, 0.015, 1.0, 1.0)
     contact = pad(law)
-    with pytest.raises(st.ModelError, match=r"duration: friction of pairs\[0\] depends on rate and state"):
+    with pytest.raises(st.ModelError, match=r"duration: friction of pairs\[0\] has a state or a factor"):
         contact.begin(contact.untouched())
 
 
@@ -335,3 +335,18 @@ def test_values_of_other_contacts_are_refused() -> None:
         contact.begin(begun)  # type: ignore[arg-type]
     with pytest.raises(TypeError, match="b: a Surface, Plane or RigidSurface is needed, not str"):
         Pair(Surface(FACETS, youngs_modulus=K), "floor")  # type: ignore[arg-type]
+
+
+def test_rigid_surfaces_of_one_name_are_one_surface() -> None:
+    def of(*planes: st.Plane) -> Contact:
+        surface = Surface(FACETS, youngs_modulus=K)
+        return Contact(POINTS, [Pair(surface, one, name=str(at)) for at, one in enumerate(planes)])
+
+    wall = st.Plane("wall")
+    assert [pair.rigid for pair in of(wall, wall).pairs] == ["wall", "wall"]
+    assert len(pickle.loads(pickle.dumps(of(wall, st.Plane("wall")))).pairs) == 2
+    with pytest.raises(st.ModelError) as caught:
+        of(wall, st.Plane("floor"), st.Plane("wall", point=(0, 0, 4)))
+    assert str(caught.value) == (
+        "pairs[2]: its rigid surface `wall` differs from another of this name; rename one"
+    )

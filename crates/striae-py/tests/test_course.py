@@ -65,3 +65,15 @@ def test_what_is_no_function_is_told() -> None:
         st.Course("sin(t)", period=1)
     with pytest.raises(st.ModelError, match="points \\(time, value\\) are needed"):
         st.Course([1.0, 2.0])
+
+
+def test_points_of_a_curve_are_a_list_or_an_array(pad: st.Body) -> None:
+    points = [(0.0, 0.0), (0.5, 0.2), (1.0, 1.0)]
+    ends = []
+    for curve in (points, np.array(points)):
+        model = st.Model([pad])
+        moved = pad["zmax"].displace(x=0, y=0, z=-0.02, curve=curve)  # type: ignore[arg-type]
+        model.step("press", pad["zmin"].hold(), moved, increments=2)
+        half, _ = model.run(keep="all")
+        ends.append(half.body("pad").displacement[pad.mesh.node_sets["zmax"], 2])
+    assert np.allclose(ends[0], -0.004) and np.array_equal(*ends)

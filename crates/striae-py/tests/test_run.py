@@ -182,6 +182,8 @@ def test_a_model_is_not_changed_while_it_runs(model: st.Model, pad: st.Body) -> 
     with pytest.raises(RuntimeError) as caught:
         model.run(told)
     assert str(caught.value) == "the model is running; change it when the run has ended"
+    with pytest.raises(RuntimeError, match="the model is running"):
+        model.run(lambda increment: model.contact_all())
     model.step("late", pad["zmax"].displace(z=0))
     assert model.step_names == ["press", "drag", "late"]
 
@@ -302,7 +304,9 @@ def test_files_are_those_of_the_program(model: st.Model, tmp_path: Path) -> None
     assert '"case": "mine"' in (tmp_path / "summary.json").read_text()
 
 
-def test_files_and_reports_can_be_had_afterwards(model: st.Model, tmp_path: Path) -> None:
+def test_files_and_reports_can_be_had_afterwards(
+    model: st.Model, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Files are those of a run that was written on the way."""
     written = model.run(output=tmp_path / "on the way", case="pad")
     run = model.run(keep="all")
@@ -322,7 +326,10 @@ def test_files_and_reports_can_be_had_afterwards(model: st.Model, tmp_path: Path
         page = (tmp_path / "report.html").read_text()
         assert page.startswith("<!DOCTYPE html>") and "pad-floor" in page
     few = model.run()
-    few.write(tmp_path / "few")
+    with monkeypatch.context() as place:
+        place.chdir(tmp_path)
+        few.write("few")
+    assert few.folder == tmp_path / "few"
     assert (tmp_path / "few" / "history.csv").read_bytes() == (written.folder / "history.csv").read_bytes()
     fields = sorted((tmp_path / "few" / "fields").glob("pad-*.vtu"))
     assert [path.name for path in fields] == [f"pad-0000{n}.vtu" for n in range(3)]

@@ -48,6 +48,39 @@ def test_an_unpickled_run_is_one(model: st.Model, pad: st.Body, tmp_path: Path) 
     assert pickle.loads(pickle.dumps(stopped)).ending == "interrupted"
 
 
+def test_a_run_keeps_the_model_that_was_run(model: st.Model, pad: st.Body) -> None:
+    run = model.run()
+    back = st.Step("back", pad["zmax"].displace(y=0.0), increments=2)
+    before = pickle.dumps(run)
+    pad.add_set("low", lambda x: x[:, 2] < 0.1)
+    model.step("slippery", model.change_friction(0, st.Frictionless()), increments=2)
+    assert run.model.step_names == ["press", "drag"] and run.model.last_run is run
+    assert "low" not in run.model.body("pad").mesh.node_sets
+    again = pickle.loads(pickle.dumps(run))
+    assert_same(run, again)
+    assert_same(run.continue_with(back), again.continue_with(back))
+    assert_same(pickle.loads(before).continue_with(back), again.continue_with(back))
+    model.step("press")
+    with pytest.raises(st.ModelError, match="`press` is already defined"):
+        model.check()
+    assert_same(run, pickle.loads(pickle.dumps(run)))
+
+
+def test_results_keep_the_pairs_that_were_run(rubber: st.NeoHookean) -> None:
+    low = st.Body("low", st.block(divisions=(1, 1, 1)), rubber)
+    high = st.Body("high", st.block(divisions=(1, 1, 1), origin=(0, 0, 1)), rubber)
+    model = st.Model([low, high], [st.Plane("floor")])
+    model.contact_all(st.Coulomb(0.3))
+    model.step("press", high["zmax"].displace(x=0, y=0, z=-0.01), increments=1)
+    run = model.run()
+    pressed = run[-1].pair("low-floor").force
+    model.contact_all(st.Coulomb(0.3), exclude=[("low", "low"), ("high", "high")])
+    assert model.pair_names != run.model.pair_names
+    assert np.array_equal(run[-1].pair("low-floor").force, pressed) and pressed[2] > 0
+    assert [pair.name for pair in run[-1].pairs] == run.model.pair_names
+    assert f"pair.{run[-1].pairs[-1].name}.resultant_a.z" in run.history
+
+
 def test_a_run_whose_model_calls_functions_is_not_pickled(floor: st.Plane) -> None:
     own = st.OwnMaterial(neo_hookean)
     body = st.Body("pad", st.block(divisions=(1, 1, 1)), own)

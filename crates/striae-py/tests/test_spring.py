@@ -55,6 +55,9 @@ def test_wrong_springs_meet_words() -> None:
         st.Spring(rigid, (0, 0, 0), stiffness=1.0, free_length=1.0, preload=1.0)
     with pytest.raises(st.ModelError, match="only a rigid body has one"):
         st.Spring(body["zmin"], direction=(0, 0, 1), stiffness=1.0, point=(0, 0, 0))
+    for b, direction in [((0, 0, 5), None), (None, (0, 0, 1))]:
+        with pytest.raises(st.ModelError, match="point_b: only a rigid body `b` has one; state a point"):
+            st.Spring(body["zmin"], b, direction=direction, stiffness=1.0, point_b=(0, 0, 9))
     with pytest.raises(TypeError, match="BodySet"):
         st.Spring("zmin", direction=(0, 0, 1))  # type: ignore[arg-type]
     with pytest.raises(st.ModelError, match="it has no force"):

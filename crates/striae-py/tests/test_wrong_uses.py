@@ -40,6 +40,14 @@ def floored(law: st.Friction | None, texture: Any = None) -> st.Model:
     return model
 
 
+def steady() -> st.Run:
+    return floored(None).run()
+
+
+def paired(floor: st.Plane, other: st.Plane) -> st.Model:
+    return st.Model([pad()], [floor], [st.Pair(pad()["zmin"], other)])
+
+
 SETS = "`all`, `xmax`, `xmin`, `ymax`, `ymin`, `zmax`, `zmin`"
 
 #: Wrong uses, and their messages.
@@ -210,6 +218,51 @@ MODEL_ERRORS: list[tuple[Callable[[], Any], str]] = [
         "curve: components given as functions take no curve",
     ),
     (
+        lambda: pad()["zmax"].displace(x=lambda s: s, curve=np.array([[0, 0], [1, 1]])),  # type: ignore[arg-type]
+        "curve: components given as functions take no curve",
+    ),
+    (
+        lambda: pad().strain([0] * 6, axes=[(1, 0, 0), (2, 0, 0)]),
+        "axes: two vectors that span a plane are needed, but [[1.0, 0.0, 0.0], [2.0, 0.0, 0.0]]"
+        " are parallel",
+    ),
+    (
+        lambda: st.Pair(pad()["zmin"], st.Plane("f"), stabilise="no"),  # type: ignore[arg-type]
+        "stabilise: True or False is needed, not 'no'",
+    ),
+    (
+        lambda: floored(None).contact_all(stabilise=1),  # type: ignore[arg-type]
+        "stabilise: True or False is needed, not 1",
+    ),
+    (lambda: st.Solver(tolerance=10), "tolerance: it must be below 1, but is 10.0"),
+    (lambda: st.Increments(2.0), "initial: it must be at most 1, but is 2.0"),
+    (lambda: st.Increments(smallest=1.5), "smallest: it must be at most 1, but is 1.5"),
+    (lambda: st.Increments(largest=0), "largest: it must be positive, but is 0.0"),
+    (
+        lambda: floored(None).run(output=""),
+        "output: a path must not be empty; `.` is the present folder",
+    ),
+    (lambda: floored(None).run(case=""), "case: a name must not be empty"),
+    (
+        lambda: st.sweep(floored, {"law": [None]}, output=""),
+        "output: a path must not be empty; `.` is the present folder",
+    ),
+    (lambda: steady().write(""), "folder: a path must not be empty; `.` is the present folder"),
+    (
+        lambda: steady()[-1].pair(0).plot(side="c"),  # type: ignore[arg-type]
+        "side: one of `a`, `b` is needed, not 'c'",
+    ),
+    (
+        lambda: paired(st.Plane("floor"), st.Plane("floor", point=(0, 0, -5))),
+        "pairs[0]: its rigid body `floor` differs from that of this name in `rigid`; state the same"
+        " object in both",
+    ),
+    (
+        lambda: paired(st.Plane("floor"), st.Plane("floor", texture=(1, 0, 0))),
+        "pairs[0]: its rigid body `floor` differs from that of this name in `rigid`; state the same"
+        " object in both",
+    ),
+    (
         lambda: pad()["zmax"].displace(x=lambda s: 1.0 / (s - 1.0) if s < 1.0 else np.nan),
         "x at 1.0: a finite number is needed, not nan",
     ),
@@ -322,6 +375,50 @@ TYPE_ERRORS: list[tuple[Callable[[], Any], str]] = [
         "Section: it has no argument `set`; its arguments are `elements`, `material`, `density`,"
         " `formulation`",
     ),
+    (
+        lambda: pad()["zmax"].traction(5.0),  # type: ignore[arg-type]
+        "value: a list of three components is needed, not 5.0",
+    ),
+    (
+        lambda: pad()["zmax"].displace(x=1, axes=3),  # type: ignore[arg-type]
+        "axes: a list of two vectors is needed, not 3",
+    ),
+    (
+        lambda: st.Coulomb(0.3).with_factor(
+            lambda at: 1.0 + 0.0 * at.pressure,
+            name="own",
+            state=1.0,  # type: ignore[arg-type]
+            update=lambda at: at.state,
+        ),
+        "state: a list of numbers is needed, not 1.0",
+    ),
+    (
+        lambda: st.differentiate(floored, ["law"]),  # type: ignore[arg-type]
+        "parameters: a mapping is needed, not list",
+    ),
+    (
+        lambda: st.sweep(floored, ["law"]),  # type: ignore[arg-type]
+        "parameters: a mapping is needed, not list",
+    ),
+    (
+        lambda: floored(None).run(output=3),  # type: ignore[arg-type]
+        "output: a path is needed, not 3",
+    ),
+    (
+        lambda: floored(None).run(case=3),  # type: ignore[arg-type]
+        "case: a name is needed, not 3",
+    ),
+    (lambda: st.resume(3), "folder: a path is needed, not 3"),  # type: ignore[arg-type]
+    (lambda: steady()[-1].body(0), "body: a name is needed, not 0"),  # type: ignore[arg-type]
+    (lambda: steady()[-1].rigid(0), "rigid body: a name is needed, not 0"),  # type: ignore[arg-type]
+    (
+        lambda: steady()[-1].reaction(0, "zmax"),  # type: ignore[arg-type]
+        "body: a name is needed, not 0",
+    ),
+    (
+        lambda: steady()[-1].reaction("pad", 0),  # type: ignore[arg-type]
+        "nodes: a name is needed, not 0",
+    ),
     (lambda: st.Friction(), "use one of the laws, such as Coulomb, or OwnFriction"),
 ]
 
@@ -340,6 +437,23 @@ def test_a_wrong_type_is_refused_in_these_words(wrong: Callable[[], Any], words:
     with pytest.raises(TypeError) as caught:
         wrong()
     assert str(caught.value) == words
+
+
+def test_equal_rigid_bodies_of_one_name_are_one() -> None:
+    normal = np.array([0.0, 0.0, 1.0])
+    for other in (
+        st.Plane("floor", normal=(0, 0, 1)),
+        st.Plane("floor", normal=normal, point=[0, 0, 0]),
+        st.Plane(name="floor"),
+    ):
+        assert paired(st.Plane("floor"), other).pair_names == ["pad-floor"]
+    lines = [st.Uniform(along) for along in ([1, 0, 0], (1.0, 0.0, 0.0))]
+    one, two = (st.Plane("floor", texture=along) for along in lines)
+    assert paired(one, two).pair_names == ["pad-floor"]
+
+
+def test_booleans_of_numpy_are_booleans() -> None:
+    assert st.Pair(pad()["zmin"], st.Plane("f"), stabilise=np.True_).name == "pad-f"  # type: ignore[arg-type]
 
 
 def test_all_faults_of_a_model_are_told_at_once() -> None:

@@ -7,7 +7,6 @@ from typing import Optional, TypeAlias, Union
 
 from . import _check as check
 from ._check import Vector
-from ._errors import refuse
 from ._made import Strict
 
 
@@ -58,6 +57,4 @@ def vectors_of(axes: Optional[Axes], path: str) -> tuple[str, list[list[float]]]
         return "normal", [axes.normal]
     if isinstance(axes, CylindricalAxes):
         return "cylindrical", [axes.point, axes.axis]
-    if len(axes) != 2:
-        raise refuse(path, f"two vectors are needed, but there are {len(axes)}")
-    return "two", [check.direction(one, path) for one in axes]
+    return "two", check.spanning(axes, path)

@@ -75,7 +75,7 @@ class BodySet:
             else:
                 targets[axis] = check.varying(value, "xyz"[axis])
         along = check.curve_of(curve, "curve", *targets)
-        if curve not in (None, "ramp") and all(target is None for target in targets):
+        if along != "ramp" and all(target is None for target in targets):
             raise refuse("curve", "components given as functions take no curve")
         body, name, within = self.body.name, self.name, vectors_of(axes, "axes")
 
@@ -410,9 +410,7 @@ class Body(Strict):
     ) -> Condition:
         name, vectors = self.name, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
         if axes is not None:
-            if len(axes) != 2:
-                raise refuse("axes", f"two vectors are needed, but there are {len(axes)}")
-            vectors = [check.vector(axis, "axes") for axis in axes]
+            vectors = check.spanning(axes, "axes")
         return Condition(
             told, lambda step: step.strain(name, section, components, vectors, along)
         )

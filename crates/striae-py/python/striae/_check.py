@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import os
 import unicodedata
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, Literal, Optional, Protocol, TypeAlias, TypeVar, Union
@@ -62,6 +64,9 @@ PIECES = 1000
 
 #: Deviation from a rotation that is round-off.
 TURNED = 1e-9
+
+#: Sine of the angle between two directions up to which they count as parallel.
+PARALLEL = 1e-8
 
 T = TypeVar("T")
 
@@ -149,6 +154,18 @@ def direction(value: Any, path: str) -> list[float]:
     return found
 
 
+def spanning(value: Any, path: str) -> list[list[float]]:
+    """Two directions that are not parallel."""
+    several(value, path, "a list of two vectors")
+    if len(value) != 2:
+        raise refuse(path, f"two vectors are needed, but there are {len(value)}")
+    found = [direction(one, path) for one in value]
+    first, second = (np.array(one) / math.hypot(*one) for one in found)
+    if math.hypot(*np.cross(first, second)) <= PARALLEL:
+        raise refuse(path, f"two vectors that span a plane are needed, but {found} are parallel")
+    return found
+
+
 def columns(**given: Any) -> list[tuple[float, ...]]:
     """Rows of arrays of shape (n, 3) that are side by side."""
     arrays = {path: rows(value, path) for path, value in given.items()}
@@ -168,6 +185,13 @@ def counts(value: Any, path: str, count: int = 3) -> list[int]:
     if int(found.min()) < 1:
         raise refuse(path, f"at least 1 is needed, but there is {int(found.min())}")
     return [int(number) for number in found]
+
+
+def boolean(value: Any, path: str) -> bool:
+    """``True`` or ``False``."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise refuse(path, f"True or False is needed, not {value!r}")
+    return bool(value)
 
 
 def booleans(value: Any, path: str) -> list[bool]:
@@ -223,10 +247,21 @@ def numbers(value: Any, path: str) -> list[float]:
     return listed
 
 
-def table(value: Any, path: str) -> Table:
-    """Numbers, lists of them and further tables by their keys."""
+def several(value: Any, path: str, needed: str) -> None:
+    """Refuses an object without members, and a text."""
+    if isinstance(value, (str, bytes)) or not np.iterable(value):
+        raise TypeError(f"{path}: {needed} is needed, not {value!r}")
+
+
+def mapping(value: Any, path: str) -> None:
+    """Refuses an object that is no mapping."""
     if not isinstance(value, Mapping):
         raise TypeError(f"{path}: a mapping is needed, not {type(value).__name__}")
+
+
+def table(value: Any, path: str) -> Table:
+    """Numbers, lists of them and further tables by their keys."""
+    mapping(value, path)
     found: Table = {}
     for key, one in value.items():
         place = f"{path}.{name(key, path)}"
@@ -257,6 +292,14 @@ def positive(value: Any, path: str) -> float:
     return found
 
 
+def fraction(value: Any, path: str) -> float:
+    """A number above 0 and at most 1."""
+    found = positive(value, path)
+    if found > 1.0:
+        raise refuse(path, f"it must be at most 1, but is {found}")
+    return found
+
+
 def whole(value: Any, path: str, least: int = 1) -> int:
     """An integer of at least `least`."""
     if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
@@ -283,6 +326,16 @@ def name(value: Any, path: str) -> str:
     if any(unicodedata.category(letter) == "Cc" for letter in value):
         raise refuse(path, f"a name must be one line of printable characters, not {value!r}")
     return value
+
+
+def folder(value: Any, path: str) -> str:
+    """Path of a folder."""
+    if not isinstance(value, (str, os.PathLike)):
+        raise TypeError(f"{path}: a path is needed, not {value!r}")
+    found = os.fspath(value)
+    if not found:
+        raise refuse(path, "a path must not be empty; `.` is the present folder")
+    return str(found)
 
 
 def kind(value: Any, class_: type[T], path: str) -> T:
@@ -363,6 +416,7 @@ def varying(value: Any, path: str) -> Varying:
 
 def varying_vector(value: Any, path: str) -> list[Varying]:
     """Three numbers, or functions of position and time."""
+    several(value, path, "a list of three components")
     if not any(isinstance(component, str) for component in value):
         return list(vector(value, path))
     if len(value) != 3:

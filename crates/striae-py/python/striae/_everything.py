@@ -5,14 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Literal, Optional, TypeAlias, Union
 
-import numpy as np
-
 from . import _check as check
 from . import _striae as native
 from ._body import Body, BodySet
 from ._errors import refuse
 from ._friction import Friction
-from ._made import Strict
+from ._made import Strict, are_alike
 from ._rigid import Rigid
 from ._texture import Texture
 
@@ -72,7 +70,7 @@ class Everything(Strict):
                 made = made.resolved()
         else:
             made = made.closed(check.positive(initial, "initial"))
-        self._made = made.stabilised() if stabilise else made
+        self._made = made.stabilised() if check.boolean(stabilise, "stabilise") else made
 
     def _paint(self, *surfaces: Surface) -> None:
         for surface in surfaces:
@@ -80,7 +78,7 @@ class Everything(Strict):
             if texture is None:
                 continue
             name = label(surface, "textures")
-            if not _are_same(self.painted.setdefault(name, texture), texture):
+            if not are_alike(self.painted.setdefault(name, texture), texture):
                 raise refuse("textures", f"`{name}` has two textures; state one of them")
 
     def native(self, rigid: Sequence[Rigid]) -> native.Everything:
@@ -104,13 +102,6 @@ def label(surface: Surface, path: str) -> str:
         f"{path}: a body, a set such as body['top'], a rigid body or a label is needed,"
         f" not {type(surface).__name__}"
     )
-
-
-def _are_same(a: Texture, b: Texture) -> bool:
-    if a is b or a._recipe is None or b._recipe is None:
-        return a is b
-    of_a, of_b = ([made, *given, *named.values()] for made, given, named in (a._recipe, b._recipe))
-    return len(of_a) == len(of_b) and all(np.array_equal(x, y) for x, y in zip(of_a, of_b))
 
 
 def _texture(surface: Surface) -> Optional[Texture]:

@@ -168,7 +168,8 @@ class Friction(Dependences):
             if not callable(function) and (told == "factor" or function is not None):
                 raise TypeError(f"{told}: a function of points is needed")
         law = check.name(name, "name")
-        start = check.numbers(state, "state") if len(state) else []
+        check.several(state, "state", "a list of numbers")
+        start = check.numbers(state, "state")
         if (update is None) != (not start):
             raise refuse("state", "a state needs both `state` at the start and `update`")
         if len(start) > LARGEST_STATE:

@@ -9,7 +9,7 @@ from . import _check as check
 from . import _striae as native
 from ._errors import ModelError, refuse
 from ._model import Model
-from ._run import Callback, Keep, Path, Run, concluded, record, watch
+from ._run import Callback, Keep, Path, Run, concluded, record
 
 #: Step of a parameter over its value, or the step where that is zero.
 STEP = 1e-5
@@ -44,24 +44,23 @@ def differentiate(
     if not callable(model_of):
         raise TypeError("model_of: a function that makes a model is needed")
     check.word(on_stop, ("raise", "return"), "on_stop")
+    check.mapping(parameters, "parameters")
     if not parameters:
         raise refuse("parameters", "at least one parameter is needed")
     values = {name: check.number(value, name) for name, value in parameters.items()}
     model = check.kind(model_of(**values), Model, "model_of")
     # Faults that the model has anyway are not told as those of a value beside it.
     model._compiled()
-    steps, neighbours = {}, []
+    neighbours = []
     for name, value in values.items():
         # Such that value and step add up without round-off.
         step = (value + STEP * (abs(value) or 1.0)) - value
         below, above = (
             _neighbour(model_of, values, name, moved) for moved in (value - step, value + step)
         )
-        steps[name] = step
         neighbours.append((name, step, below, above))
-    watching = watch(on_increment, keep, threads, model)
-    ended = model._ended(watching, record(output, case, fields_every), neighbours)
-    return concluded(ended, model, on_stop, output, steps)
+    recording = record(output, case, fields_every)
+    return concluded(model._ended(on_increment, keep, threads, recording, neighbours), on_stop)
 
 
 def _neighbour(

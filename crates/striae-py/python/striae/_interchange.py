@@ -3,14 +3,14 @@ xarray."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
 from . import _check as check
 from ._check import Ints
 from ._errors import refuse
-from ._mesh import KINDS, Mesh, corners_of_facets
+from ._mesh import KINDS, Mesh, known
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -21,31 +21,50 @@ if TYPE_CHECKING:
 #: Numbers of the kinds among VTK's cells.
 VTK = {"hexahedron": 12, "wedge": 13, "pyramid": 14, "tetra": 10, "tetra10": 24}
 
+#: Cells without a volume: beginnings of meshio's names, and VTK's numbers.
+FLAT = ("vertex", "line", "triangle", "quad", "polygon")
+FLAT_OF_VTK = {*range(10), 21, 22, 23, 28, 30, 34, 35, 36}
+
+#: Corners of the facets that facets of meshio consist of; triangles repeat their last one.
+FACETS = {
+    "triangle": [[0, 1, 2, 2]],
+    "quad": [[0, 1, 2, 3]],
+    # Facets of a tetra10 end at its midside nodes.
+    "triangle6": [[0, 3, 5, 5], [3, 1, 4, 4], [5, 4, 2, 2], [3, 4, 5, 5]],
+    "quad8": [[0, 1, 2, 3]],
+    "quad9": [[0, 1, 2, 3]],
+}
+
+#: Members of named sets of cells, by the numbers of their blocks.
+Members: TypeAlias = dict[str, dict[int, Ints]]
+
 
 def from_cells(source: Any) -> Mesh:
     """The mesh of an object with ``points`` and ``cells_dict``."""
-    cells = dict(source.cells_dict)
-    known = {kind: cells.get(kind, cells.get(VTK[kind])) for kind in KINDS}
-    corners = {
-        kind: check.indices(rows, KINDS[kind], "cells")
-        for kind, rows in known.items()
-        if rows is not None
-    }
-    if not corners:
-        kinds = ", ".join(KINDS)
-        raise refuse("mesh", f"it has none of {kinds}; its cells are {sorted(map(str, cells))}")
+    corners = _corners(dict(source.cells_dict))
     points = check.rows(source.points, "points")
     used = np.unique(np.concatenate([rows.ravel() for rows in corners.values()]))
     if used.size and int(used[-1]) >= len(points):
         raise refuse("cells", f"they refer to node {used[-1]}, but there are {len(points)} points")
     new = np.full(len(points), -1, dtype=np.int64)
     new[used] = np.arange(len(used))
-    mesh = Mesh(points[used], {kind: new[rows] for kind, rows in corners.items()})
-    facets = {name: new[quads] for name, quads in _quads(source).items()}
-    facets = {name: quads for name, quads in facets.items() if len(quads)}
-    nodes = {name: np.unique(quads) for name, quads in facets.items()}
+    blocks = getattr(source, "cells", None)
+    blocks = blocks if isinstance(blocks, list) else []
+    sets = _sets(source, blocks)
+    mesh = Mesh(
+        points[used],
+        {kind: new[rows] for kind, rows in corners.items()},
+        element_sets=_joined(sets, _elements(blocks, corners)),
+    )
+    facets = {}
+    for name, rows in _joined(sets, _facets(blocks)).items():
+        if not np.isin(rows, used).all():
+            text = "its facets have nodes that no cell with a volume has; facets must be of such cells"
+            raise refuse(f"facet set `{name}`", text)
+        facets[name] = new[rows]
+    nodes = {name: np.unique(rows) for name, rows in facets.items()}
     for name, members in _node_sets(source).items():
-        kept = new[np.asarray(members)]
+        kept = new[known(members, points, "node", f"node set `{name}`")]
         nodes[name] = kept[kept >= 0]
     masks = _masks(source)
     nodes.update({name: np.flatnonzero(mask[used]) for name, mask in masks.items()})
@@ -53,29 +72,80 @@ def from_cells(source: Any) -> Mesh:
     return mesh.with_sets(nodes=nodes, facets={**both, **facets})
 
 
-def _quads(source: Any) -> dict[str, Ints]:
-    """Corners of named facets of meshio: cell sets and physical groups of Gmsh."""
-    found: dict[str, list[Ints]] = {}
-    blocks = getattr(source, "cells", None)
-    if not isinstance(blocks, list):
-        return {}
-    flat = ("quad", "triangle", "triangle6")
-    quads = [
-        (at, corners_of_facets(block.data, "mesh"))
+def _corners(cells: dict[Any, Any]) -> dict[str, Ints]:
+    """Corners of the cells with a volume, by kind."""
+    names = {number: kind for kind, number in VTK.items()}
+    solid = {
+        names.get(kind, kind): rows
+        for kind, rows in cells.items()
+        if len(rows) and not (kind in FLAT_OF_VTK or str(kind).startswith(FLAT))
+    }
+    needed = ", ".join(KINDS)
+    if not solid:
+        found = sorted(map(str, cells)) or "none"
+        raise refuse("mesh", f"cells of the kinds {needed} are needed; its cells are {found}")
+    other = [f"`{kind}`" for kind in solid if kind not in KINDS]
+    if other:
+        raise refuse(
+            "mesh",
+            f"it has cells of the kinds {', '.join(other)}, but {needed} are needed; write it to a"
+            " file, and take that by `striae.read_mesh`, which divides cells of second order",
+        )
+    return {kind: check.indices(solid[kind], KINDS[kind], "cells") for kind in KINDS if kind in solid}
+
+
+def _sets(source: Any, blocks: list[Any]) -> Members:
+    """Cell sets of meshio, and physical groups of Gmsh."""
+    found: Members = {}
+    physical = getattr(source, "cell_data", {}).get("gmsh:physical", []) if blocks else []
+    tags = [np.asarray(numbers) for numbers in physical]
+    for name, (number, dimension) in source.field_data.items() if tags else []:
+        found[name] = {
+            at: np.flatnonzero(tags[at] == number)
+            for at, block in enumerate(blocks)
+            if dimension == (2 if block.type in FACETS else 3)
+        }
+    for name, members in getattr(source, "cell_sets", {}).items() if blocks else []:
+        if not name.startswith("gmsh:"):
+            found[name] = {
+                at: known(members[at], block.data, "cell", f"cell set `{name}`")
+                for at, block in enumerate(blocks)
+                if members[at] is not None
+            }
+    return found
+
+
+def _elements(blocks: list[Any], corners: dict[str, Ints]) -> dict[int, Ints]:
+    """Numbers of the elements by the numbers of their blocks."""
+    sizes = [len(rows) for rows in corners.values()]
+    following = dict(zip(corners, np.cumsum([0, *sizes]).tolist()))
+    found: dict[int, Ints] = {}
+    for at, block in enumerate(blocks):
+        if block.type in following:
+            first = following[block.type]
+            following[block.type] += len(block.data)
+            found[at] = np.arange(first, following[block.type])
+    return found
+
+
+def _facets(blocks: list[Any]) -> dict[int, Ints]:
+    """Corners of the facets of each cell, by the numbers of the blocks."""
+    return {
+        at: check.integers(block.data, "cells")[:, FACETS[block.type]]
         for at, block in enumerate(blocks)
-        if block.type in flat
-    ]
-    for name, members in getattr(source, "cell_sets", {}).items():
-        for at, corners in quads:
-            if not name.startswith("gmsh:") and members[at] is not None and len(members[at]):
-                found.setdefault(name, []).append(corners[np.asarray(members[at], dtype=np.int64)])
-    physical: Any = getattr(source, "cell_data", {}).get("gmsh:physical")
-    for name, (number, dimension) in getattr(source, "field_data", {}).items():
-        for at, corners in quads if physical is not None and dimension == 2 else []:
-            chosen = corners[np.asarray(physical[at]) == number]
-            if len(chosen) and name not in found:
-                found.setdefault(name, []).append(chosen)
-    return {name: np.concatenate(parts).astype(np.int64) for name, parts in found.items()}
+        if block.type in FACETS
+    }
+
+
+def _joined(sets: Members, cells: dict[int, Ints]) -> dict[str, Ints]:
+    """Members of the sets, as the blocks have them by cell, without sets that have none."""
+    found = {}
+    for name, members in sets.items():
+        parts = [cells[at][rows] for at, rows in members.items() if at in cells and len(rows)]
+        if parts:
+            width = parts[0].shape[2:]
+            found[name] = np.concatenate([part.reshape(-1, *width) for part in parts])
+    return found
 
 
 def _node_sets(source: Any) -> dict[str, Any]:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any, Optional, TypeAlias
+
+import numpy as np
 
 #: Callable that makes an object, with its arguments.
 Recipe: TypeAlias = tuple[Callable[..., Any], tuple[Any, ...], dict[str, Any]]
@@ -33,6 +35,36 @@ class Made(Strict):
         if self._recipe is None:
             raise TypeError(f"{self!r} cannot be pickled: it was not made by its class")
         return again, self._recipe
+
+
+def are_alike(a: Any, b: Any) -> bool:
+    """``True`` of an object and itself, and of two that are made from equal arguments."""
+
+    def are_both(*kinds: type) -> bool:
+        return isinstance(a, kinds) and isinstance(b, kinds)
+
+    if a is b:
+        return True
+    if are_both(Made):
+        recipes = [one._recipe for one in (a, b)]
+        return None not in recipes and are_alike(*map(_arguments, recipes))
+    if are_both(Mapping):
+        return a.keys() == b.keys() and all(are_alike(a[key], b[key]) for key in a)
+    if are_both(tuple, list):
+        return len(a) == len(b) and all(are_alike(one, other) for one, other in zip(a, b))
+    return np.array_equal(a, b)
+
+
+def _arguments(recipe: Recipe) -> tuple[Callable[..., Any], dict[str, Any]]:
+    """The callable and its arguments by their names, with those that are left out."""
+    maker, arguments, named = recipe
+    if isinstance(maker, type):
+        # Nothing in place of the object that it makes.
+        bound = inspect.signature(getattr(maker, "__init__")).bind(None, *arguments, **named)
+    else:
+        bound = inspect.signature(maker).bind(*arguments, **named)
+    bound.apply_defaults()
+    return maker, dict(bound.arguments)
 
 
 #: Counterparts in Python of keys of decks.

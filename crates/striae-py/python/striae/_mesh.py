@@ -53,7 +53,8 @@ class Mesh(Strict):
             ``tetra10`` (10, midside nodes included), alone or together.
         node_sets: members of named sets of nodes, see :meth:`with_sets`.
         facet_sets: members of named sets of facets, see :meth:`with_sets`.
-        element_sets: members of named sets of elements, see :meth:`with_sets`.
+        element_sets: members of named sets of elements, see :meth:`with_sets`; numbers and masks
+            are in the order in which the elements are given here, kind by kind.
         """
         if not isinstance(cells, Mapping):
             raise TypeError(
@@ -67,9 +68,14 @@ class Mesh(Strict):
         if not any(len(rows) for _, rows in corners):
             raise refuse("cells", "a mesh needs at least one cell")
         made = Mesh._of(native.Mesh(positions, corners))
-        self._native = made.with_sets(
-            nodes=node_sets, facets=facet_sets, elements=element_sets
-        )._native
+        numbers = numbers_by_kind(corners)
+        elements = {
+            name: members
+            if callable(members)
+            else numbers[known(members, made.middles, "element", f"element set `{name}`")]
+            for name, members in (element_sets or {}).items()
+        }
+        self._native = made.with_sets(nodes=node_sets, facets=facet_sets, elements=elements)._native
         self._arrays: dict[str, npt.NDArray[Any]] = {}
 
     @classmethod
@@ -92,7 +98,8 @@ class Mesh(Strict):
         source: a mesh; a path to a Gmsh (``.msh``), Abaqus (``.inp``) or VTK (``.vtu``,
             ``.vtk``) file; an object of
             meshio (``points``, ``cells_dict``), whose cell sets and named physical groups
-            of quadrilaterals become facet and node sets, and its point sets node sets; or
+            become facet and node sets where they are of triangles and quadrilaterals, and element
+            sets where they are of cells with a volume, and its point sets node sets; or
             an unstructured grid of pyvista, whose boolean point data become sets.
         """
         if isinstance(source, Mesh):
@@ -278,6 +285,21 @@ def chosen(members: Members, places: Floats, path: str) -> Ints:
     if numbers.ndim != 1:
         raise refuse(path, f"an array of one dimension is needed, not of {numbers.ndim}")
     return numbers
+
+
+def known(members: Members, places: Floats, part: str, path: str) -> Ints:
+    """Numbers of the parts selected by members, all of which there are."""
+    numbers = chosen(members, places, path)
+    if numbers.size and int(numbers.max()) >= len(places):
+        text = f"refers to {part} {numbers.max()}, but there are {len(places)}, from 0"
+        raise refuse(path, text)
+    return numbers
+
+
+def numbers_by_kind(given: list[tuple[str, Ints]]) -> Ints:
+    """Numbers, in the order of :attr:`Mesh.cells`, of elements that are given kind by kind."""
+    places = np.repeat([list(KINDS).index(kind) for kind, _ in given], [len(rows) for _, rows in given])
+    return np.argsort(np.argsort(places, kind="stable"))
 
 
 def corners_of_facets(members: Any, path: str) -> Ints:

@@ -6,7 +6,6 @@ import copy
 import os
 import warnings
 from collections.abc import Sequence
-from functools import cached_property
 from typing import Any, Literal, NamedTuple, Optional, Union
 
 import numpy as np
@@ -20,11 +19,11 @@ from ._errors import refuse
 from ._everything import FEATURE_ANGLE, Everything, Excluded, Surface
 from ._friction import Friction
 from ._laws import Frictionless
-from ._made import Strict
+from ._made import Strict, are_alike
 from ._mesh import Mesh
 from ._pair import Pair, _change
 from ._rigid import Rigid
-from ._run import Callback, Keep, Path, Run, closed, concluded, record, watch
+from ._run import Callback, Ended, Keep, Path, Run, closed, concluded, record, watch
 from ._spring import Spring
 from ._step import Condition, Dynamics, Increments, Step
 from ._tie import Tie
@@ -53,6 +52,8 @@ class Solver(Strict):
         """Factorisation."""
         self.tolerance = check.positive(tolerance, "tolerance")
         """Relative tolerance of every residual field (no unit)."""
+        if self.tolerance >= 1.0:
+            raise refuse("tolerance", f"it must be below 1, but is {self.tolerance}")
         self.largest_iterations = check.whole(largest_iterations, "largest_iterations")
         """Iterations after which an increment is cut."""
 
@@ -165,6 +166,9 @@ class Model(Strict):
         self._bodies = check.kinds(bodies, Body, "bodies")
         self._rigid = check.kinds(rigid, Rigid, "rigid")
         self._pairs = check.kinds(pairs, Pair, "pairs")
+        for index, pair in enumerate(self._pairs):
+            for side in (pair.a, pair.b):
+                _refuse_another(side, self._rigid, f"pairs[{index}]")
         self._ties = check.kinds(ties, Tie, "ties")
         self._springs = check.kinds(springs, Spring, "springs")
         self._cavities = check.kinds(cavities, Cavity, "cavities")
@@ -240,8 +244,7 @@ class Model(Strict):
         increments: number of equal increments, cut where needed, or their sizes.
         dynamics: inertia; without it the step is a sequence of equilibria.
         """
-        if self._running:
-            raise RuntimeError("the model is running; change it when the run has ended")
+        self._rests()
         made = Step(
             name, *conditions, duration=duration, increments=increments, dynamics=dynamics
         )
@@ -286,6 +289,7 @@ class Model(Strict):
         stabilise: if true, viscous forces carry bodies without other restraints across a gap, in
             steps without inertia.
         """
+        self._rests()
         if self._base is not None:
             raise refuse("model", "the contact of a deck is stated in it")
         self._everything = Everything(
@@ -441,17 +445,15 @@ class Model(Strict):
             ``return`` the run.
         """
         check.word(on_stop, ("raise", "return"), "on_stop")
-        watching = watch(on_increment, keep, threads, self)
-        ended = self._ended(watching, record(output, case, fields_every))
-        return concluded(ended, self, on_stop, output)
+        recording = record(output, case, fields_every)
+        return concluded(self._ended(on_increment, keep, threads, recording), on_stop)
 
     def _run(
         self, threads: int, keep: Keep, output: Optional[Path], fields_every: Optional[int]
     ) -> Run:
         """The run as one of many, whatever its ending, with warnings that are not issued yet."""
-        watching = watch(None, keep, threads, self)
-        ended = self._ended(watching, record(output, None, fields_every))
-        return closed(ended, self, "return", output)
+        recording = record(output, None, fields_every)
+        return closed(self._ended(None, keep, threads, recording), "return")
 
     @property
     def _named(self) -> list[str]:
@@ -459,16 +461,30 @@ class Model(Strict):
 
     def _ended(
         self,
-        watching: native.Watching,
+        on_increment: Optional[Callback],
+        keep: Keep,
+        threads: Optional[int],
         recording: native.Recording,
         parameters: Sequence[tuple[str, float, native.Model, native.Model]] = (),
-    ) -> tuple[native.Run, Optional[BaseException]]:
-        compiled = self._compiled()
+    ) -> Ended:
+        """The run, and the exception that it ended with."""
+        # The run keeps the model as it is now, whatever becomes of this one.
+        model = copy.copy(self)
+        watching = watch(on_increment, keep, threads, model)
+        compiled = model._compiled()
         self._running += 1
         try:
-            return native.run(compiled, watching, recording, list(parameters))
+            found, exception = native.run(compiled, watching, recording, list(parameters))
         finally:
             self._running -= 1
+        folder = None if recording is None else recording[0]
+        self._last_run = Run(found, model, folder, {name: step for name, step, *_ in parameters})
+        return self._last_run, exception
+
+    def _rests(self) -> None:
+        """Refuses changes of the model while it runs."""
+        if self._running:
+            raise RuntimeError("the model is running; change it when the run has ended")
 
     def _compiled(self) -> native.Model:
         steps = [step._native for step in self._steps]
@@ -487,10 +503,6 @@ class Model(Strict):
             steps,
             (solver.backend, solver.tolerance, solver.largest_iterations),
         )
-
-    @cached_property
-    def _meshes(self) -> dict[str, Mesh]:
-        return {body.name: body.mesh for body in self._bodies}
 
     def _position(self, kind: str, names: Sequence[str], which: Union[int, str]) -> int:
         if isinstance(which, str):
@@ -515,7 +527,7 @@ class Model(Strict):
         made._bodies = [copy.copy(body) for body in self._bodies]
         made._rigid, made._pairs = list(self._rigid), list(self._pairs)
         made._ties, made._springs = list(self._ties), list(self._springs)
-        made._cavities = list(self._cavities)
+        made._cavities, made._solver = list(self._cavities), copy.copy(self._solver)
         made._steps, made._earlier = list(self._steps), list(self._earlier)
         made._running, made._last_run = 0, None
         return made
@@ -528,6 +540,18 @@ class Model(Strict):
             f"Model({self._title!r}, bodies {self.body_names}, rigid {self.rigid_names},"
             f" pairs {self._named if self._base is None else self.pair_names}, ties {self.tie_names}, steps {self.step_names})"
         )
+
+
+def _refuse_another(side: object, rigid: Sequence[Rigid], path: str) -> None:
+    """Refuses a rigid side of a pair in place of which the model has another one of its name."""
+    if isinstance(side, Rigid):
+        for one in rigid:
+            if one.name == side.name and not are_alike(one, side):
+                raise refuse(
+                    path,
+                    f"its rigid body `{side.name}` differs from that of this name in `rigid`; state"
+                    " the same object in both",
+                )
 
 
 def _told(model: native.Model) -> native.Model:

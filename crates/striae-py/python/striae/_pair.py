@@ -108,7 +108,7 @@ class Pair(Made):
             made = made.searching(check.positive(search_distance, "search_distance"))
         if feature_angle is not None:
             made = made.divided(check.number(feature_angle, "feature_angle"))
-        self._native = made.stabilised() if stabilise else made
+        self._native = made.stabilised() if check.boolean(stabilise, "stabilise") else made
 
     def change_friction(self, friction: Friction) -> Condition:
         """Changes the friction of the pair at the start of a step; friction: the new law."""

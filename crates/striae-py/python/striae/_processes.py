@@ -7,6 +7,7 @@ caller, so scripts need no guard and no lock or thread of this process is copied
 
 from __future__ import annotations
 
+import copy
 import json
 import pickle
 import shutil
@@ -94,7 +95,9 @@ class Workers:
             self._look()
         process = _started(folder)
         output = job["output"]
-        self._under_way[number] = Job(parameters, model, compiled, folder, output, process)
+        self._under_way[number] = Job(
+            parameters, copy.copy(model), compiled, folder, output, process
+        )
 
     def runs(self) -> list[Run]:
         """The runs in the order in which they were started, once all have ended."""
@@ -147,7 +150,7 @@ def _returned(job: Job) -> Run:
         run = native.returned(
             job.compiled, str(job.folder), told["states"], told["ending"], told["reason"]
         )
-        return Run(run, job.model, None if job.output is None else Path(job.output))
+        return Run(run, job.model, job.output)
     raised = job.folder / "error.pickle"
     if raised.exists():
         error: Exception = pickle.loads(raised.read_bytes())

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Protocol, Union
 import numpy as np
 import numpy.typing as npt
 
+from . import _check as check
 from . import _striae as native
 from ._check import Floats, Ints
 from ._described import described
@@ -333,7 +334,7 @@ class PairResults:
         """
         from ._plot import draw_patch
 
-        return draw_patch(self, axes, side)
+        return draw_patch(self, axes, check.word(side, ("a", "b"), "side"))
 
     def __repr__(self) -> str:
         return f"<results of pair {self.name!r}>"
@@ -444,7 +445,7 @@ class Increment:
 
     def body(self, name: str) -> BodyResults:
         """Results of a deformable body; name: of the body."""
-        self._model._position("body", self._model.body_names, name)
+        self._model._position("body", self._model.body_names, check.name(name, "body"))
         if name not in self._bodies:
             self._bodies[name] = BodyResults(self._results, name)
         return self._bodies[name]
@@ -487,7 +488,7 @@ class Increment:
 
     def rigid(self, name: str) -> RigidResults:
         """Results of a rigid body; name: of the body."""
-        self._model._position("rigid body", self._model.rigid_names, name)
+        self._model._position("rigid body", self._model.rigid_names, check.name(name, "rigid body"))
         found = self._results.rigid(name) or [[0.0] * 3] * 4
         return RigidResults(*[frozen(np.array(vector)) for vector in found])
 
@@ -522,8 +523,8 @@ class Increment:
         body: name of the body.
         nodes: name of its node set.
         """
-        self._model._position("body", self._model.body_names, body)
-        found = self._results.reaction(f"{body}.{nodes}")
+        self._model._position("body", self._model.body_names, check.name(body, "body"))
+        found = self._results.reaction(f"{body}.{check.name(nodes, 'nodes')}")
         if found is None:
             raise KeyError(f"body `{body}` has no node set `{nodes}`")
         return frozen(np.array(found))
@@ -546,7 +547,7 @@ class Increment:
         return blocks
 
     def _mesh(self, body: str) -> Mesh:
-        return self._model._meshes[body]
+        return self._model.body(body).mesh
 
     def __repr__(self) -> str:
         return f"<increment {self.number} at time {self.time:g}, step {self.step!r}>"

@@ -9,7 +9,7 @@ import tempfile
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, Literal, Optional, Union, overload
+from typing import TYPE_CHECKING, Any, Literal, Optional, TypeAlias, Union, overload
 
 import numpy as np
 
@@ -110,14 +110,17 @@ class Run(Sequence[Increment]):
         self,
         run: native.Run,
         model: Model,
-        folder: Optional[pathlib.Path] = None,
+        folder: Optional[Path] = None,
         parameters: Mapping[str, float] = MappingProxyType({}),
     ) -> None:
-        """Use :meth:`Model.run` to make a run; parameters: steps of differentiated ones."""
-        self._native, self._model, self._folder = run, model, folder
+        """Use :meth:`Model.run` to make a run; model: that is not changed any more; parameters:
+        steps of differentiated ones."""
+        self._native, self._model = run, model
+        self._folder = None if folder is None else pathlib.Path(folder).absolute()
         self._parameters = dict(parameters)
         self._history = History(*run.history())
         self._increments = [Increment(results, model) for results in run.kept()]
+        model._last_run = self
 
     @property
     def model(self) -> Model:
@@ -247,8 +250,9 @@ class Run(Sequence[Increment]):
         """
         name = self._model.title if case is None else check.name(case, "case")
         every = check.whole(fields_every, "fields_every", 0)
-        self._native.write(os.fspath(folder), name, every)
-        self._folder = pathlib.Path(folder)
+        place = pathlib.Path(check.folder(folder, "folder")).absolute()
+        self._native.write(str(place), name, every)
+        self._folder = place
 
     def report(self, path: Path) -> None:
         """Writes a report that opens in any browser, without a network: deformed bodies with
@@ -382,12 +386,17 @@ class Run(Sequence[Increment]):
         model = type(self._model)._of(self._native.model())
         model._earlier += [step.name for step in steps]
         watching = watch(on_increment, keep, threads, model)
-        recording = record(output, self._model.title, fields_every)
-        ended = self._native.continued(native_steps, watching, recording)
-        return concluded(ended, type(model)._of(ended[0].model()), on_stop, output)
+        recording = record(output, None, fields_every)
+        found, exception = self._native.continued(native_steps, watching, recording)
+        run = Run(found, type(model)._of(found.model()), output)
+        return concluded((run, exception), on_stop)
 
     def __repr__(self) -> str:
         return f"<run: {self.reason}; {len(self)} increments are kept>"
+
+
+#: A run, and the exception that it ended with.
+Ended: TypeAlias = tuple[Run, Optional[BaseException]]
 
 
 def unpickled(
@@ -405,9 +414,7 @@ def unpickled(
             path.parent.mkdir(exist_ok=True)
             path.write_bytes(content)
         found = native.returned(model._compiled(), place, states, ending, reason)
-    run = Run(found, model, folder)
-    model._last_run = run
-    return run
+    return Run(found, model, folder)
 
 
 def drawn(
@@ -471,37 +478,21 @@ def record(
     """Output of a run, for the native part."""
     if fields_every is not None:
         check.whole(fields_every, "fields_every", 0)
-    if output is None:
-        return None
-    return os.fspath(output), case, fields_every
+    named = None if case is None else check.name(case, "case")
+    return None if output is None else (check.folder(output, "output"), named, fields_every)
 
 
-def concluded(
-    ended: tuple[native.Run, Optional[BaseException]],
-    model: Model,
-    on_stop: str,
-    folder: Optional[Path],
-    parameters: Mapping[str, float] = MappingProxyType({}),
-) -> Run:
+def concluded(ended: Ended, on_stop: str) -> Run:
     """The run with its warnings, or the exception that it ended with."""
-    run = closed(ended, model, on_stop, folder, parameters)
+    run = closed(ended, on_stop)
     for text in run.warnings:
         warnings.warn(text, RunWarning, stacklevel=3)
     return run
 
 
-def closed(
-    ended: tuple[native.Run, Optional[BaseException]],
-    model: Model,
-    on_stop: str,
-    folder: Optional[Path],
-    parameters: Mapping[str, float] = MappingProxyType({}),
-) -> Run:
+def closed(ended: Ended, on_stop: str) -> Run:
     """The run, or the exception that it ended with."""
-    found, exception = ended
-    place = None if folder is None else pathlib.Path(folder).absolute()
-    run = Run(found, model, place, parameters)
-    model._last_run = run
+    run, exception = ended
     if isinstance(exception, KeyboardInterrupt):
         raise RunInterrupted(run) from None
     if exception is not None:
@@ -527,7 +518,8 @@ def resume(
     """
     from ._model import Model
 
-    model = Model.from_deck(native.deck_of(os.fspath(folder)))
+    place = check.folder(folder, "folder")
+    model = Model.from_deck(native.deck_of(place))
     watching = watch(on_increment, keep, threads, model)
-    ended = native.resume(os.fspath(folder), watching)
-    return concluded(ended, model, on_stop, folder)
+    found, exception = native.resume(place, watching)
+    return concluded((Run(found, model, place), exception), on_stop)

@@ -66,6 +66,8 @@ class Spring(Made):
         of = f"spring `{self.name}`"
         if (b is None) == (direction is None):
             raise refuse(of, "either an end `b` or a `direction` is needed")
+        if point_b is not None and other is None:
+            raise refuse("point_b", "only a rigid body `b` has one; state a point as `b` itself")
         if free_length is not None and preload is not None:
             raise refuse(of, "only one of `free_length` and `preload` can be given")
         if direction is not None:

@@ -63,13 +63,13 @@ class Increments:
             (fraction of the step).
         largest: the first by default (fraction of the step).
         """
-        self.initial = check.positive(initial, "initial")
+        self.initial = check.fraction(initial, "initial")
         """First increment (fraction of the step)."""
         self.smallest = (
-            1e-3 * self.initial if smallest is None else check.positive(smallest, "smallest")
+            1e-3 * self.initial if smallest is None else check.fraction(smallest, "smallest")
         )
         """Smallest increment, below which the run ends (fraction of the step)."""
-        self.largest = self.initial if largest is None else check.positive(largest, "largest")
+        self.largest = self.initial if largest is None else check.fraction(largest, "largest")
         """Largest increment (fraction of the step)."""
 
     def __repr__(self) -> str:

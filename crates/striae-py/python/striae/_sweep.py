@@ -118,6 +118,7 @@ def sweep(
     if not callable(model_of):
         raise TypeError("model_of: a function that makes a model is needed")
     check.whole(workers, "workers")
+    check.mapping(parameters, "parameters")
     for name, values in parameters.items():
         if isinstance(values, str) or not hasattr(values, "__len__"):
             raise TypeError(f"parameter `{name}`: a list of values is needed, not {values!r}")
@@ -128,6 +129,7 @@ def sweep(
     if fields_every is not None:
         check.whole(fields_every, "fields_every", 0)
     keeping(keep)
+    place = None if output is None else Path(check.folder(output, "output")).absolute()
     all_values = itertools.product(*parameters.values())
     points = [dict(zip(parameters, values)) for values in all_values]
     shared = threads or max(1, (os.cpu_count() or 1) // workers)
@@ -135,7 +137,7 @@ def sweep(
         {
             "threads": shared,
             "keep": keep,
-            "output": None if output is None else str(Path(output).absolute() / str(number)),
+            "output": None if place is None else str(place / str(number)),
             "fields_every": fields_every,
         }
         for number in range(1, len(points) + 1)

@@ -34,7 +34,7 @@ from ._check import Floats, Ints, Vector
 from ._described import described
 from ._errors import refuse
 from ._friction import Friction
-from ._made import Made
+from ._made import Made, are_alike
 from ._mesh import frozen
 from ._results import SideResults
 from ._rigid import Plane, RigidSurface
@@ -103,10 +103,11 @@ class Pair(Made):
         """Unique name."""
         self.rigid: Optional[str] = None
         """Name of the rigid side, if there is one."""
+        self._rigid: Union[Plane, RigidSurface, None] = None
         if isinstance(b, Surface):
             self._native = native.MeshPair.deformable(self.name, first, b._native, law, reach)
         elif isinstance(b, (Plane, RigidSurface)) and b._native is not None:
-            self.rigid = b.name
+            self.rigid, self._rigid = b.name, b
             paint = None if b.texture is None else b.texture._native
             self._native = native.MeshPair.rigid(self.name, first, b._native, paint, law, reach)
         else:
@@ -125,6 +126,12 @@ class Contact(Made):
         pairs: the pairs, whose facets count the nodes in that order.
         """
         listed = check.kinds(pairs, Pair, "pairs")
+        named: dict[str, Union[Plane, RigidSurface]] = {}
+        for index, pair in enumerate(listed):
+            rigid = pair._rigid
+            if rigid is not None and not are_alike(named.setdefault(rigid.name, rigid), rigid):
+                text = f"its rigid surface `{rigid.name}` differs from another of this name; rename one"
+                raise refuse(f"pairs[{index}]", text)
         self._native = native.Contact(check.rows(points, "points"), [one._native for one in listed])
         self.pairs = tuple(listed)
         """The pairs."""
