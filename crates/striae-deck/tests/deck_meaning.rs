@@ -212,6 +212,21 @@ fn rigid_bodies() {
         ],
     );
     misstated(
+        "nodes that are tied twice",
+        &[(
+            floor,
+            r#"tied = [{ body = "upper", nodes = "xmax" }]
+
+[[rigid]]
+name = "clamp"
+tied = [{ body = "upper", nodes = "ymax" }]"#,
+        )],
+        &[
+            "19:1: rigid bodies `floor` and `clamp` are both tied to node 15 of body `upper`; a node follows one of them: take it out of the set of the other",
+            "30:1: step `press` prescribes node 35 of body `upper`, which is tied to a rigid body; move the rigid body instead",
+        ],
+    );
+    misstated(
         "side without a surface",
         &[
             (floor, r#"tied = [{ body = "upper", nodes = "xmax" }]"#),

@@ -571,6 +571,20 @@ pub enum FaultKind {
         /// Its target, with angles in degrees.
         target: f64,
     },
+    /// A node that follows two rigid bodies.
+    #[error(
+        "rigid bodies `{first}` and `{second}` are both tied to {node} of body `{body}`; a node follows one of them: take it out of the set of the other"
+    )]
+    TiedTwice {
+        /// The rigid body that is listed first.
+        first: String,
+        /// The other one.
+        second: String,
+        /// Body of the node.
+        body: String,
+        /// The first such node.
+        node: NodeId,
+    },
     /// A node that follows a rigid body and is prescribed.
     #[error(
         "step `{step}` prescribes {node} of body `{body}`, which is tied to a rigid body; move the rigid body instead"

@@ -285,6 +285,18 @@ pub enum CutBack {
         /// Ratio to the size of the undeformed bodies.
         times: f64,
     },
+    /// Nothing holds a rigid body, which flies off.
+    #[error(
+        "rigid body `{rigid}` flies off: it would move by {way:.1e}, {times:.0e} times the size of the model. Nothing restrains it: hold it in its directions, restrain it by contact or springs, or give the step inertia with `dynamics = {{}}` and the body a mass"
+    )]
+    RigidFlown {
+        /// Name of the rigid body.
+        rigid: String,
+        /// Distance of the motion.
+        way: f64,
+        /// Ratio to the size of the undeformed bodies.
+        times: f64,
+    },
     /// The linear system could not be solved.
     #[error("{place}{}", solving(place, error))]
     LinearSystem {

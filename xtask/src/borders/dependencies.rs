@@ -47,6 +47,7 @@ const LADDER: &[Row] = &[
         name: "striae-contact",
         own: &["striae-law", "striae-mesh", "striae-surface"],
         outside: &[
+            "crc32fast",
             "nalgebra",
             "num-dual",
             "pulp",

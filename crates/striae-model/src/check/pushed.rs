@@ -70,8 +70,10 @@ pub(super) fn faults(model: &Model) -> Vec<Fault> {
         .collect()
 }
 
+/// Returns whether a spring acts on a body; one without stiffness may be what presses it on.
 fn is_sprung(model: &Model, mover: Mover) -> bool {
-    model.springs.iter().any(|spring| spring.holds(mover))
+    let mut springs = model.springs.iter();
+    springs.any(|spring| spring.ends().any(|end| end.is_on(mover)))
 }
 
 /// Returns whether ties or springs join a body to others or to ground.

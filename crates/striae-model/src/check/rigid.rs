@@ -1,7 +1,7 @@
 //! Rigid bodies that are free though nothing moves them, and tied nodes that are
-//! prescribed as well.
+//! prescribed as well or tied twice.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 use striae_mesh::NodeId;
 use striae_solve::model::{BodyId, ContactSurface, Freedom, Mover, RigidId, Step};
@@ -9,17 +9,34 @@ use striae_solve::model::{BodyId, ContactSurface, Freedom, Mover, RigidId, Step}
 use super::{Draft, List, Positions, hold::is_sprung};
 use crate::{fault::FaultKind, path::Path};
 
-/// Notes both in every whole step.
+/// Notes nodes that are tied twice, and the others in every whole step.
 pub(super) fn check(
     draft: &Draft<'_>,
     impossible: &Positions,
     partial: &Positions,
     faults: &mut List,
 ) {
-    let mut tied: BTreeSet<(BodyId, NodeId)> = BTreeSet::new();
-    let rigid = draft.rigid_surfaces.iter().filter_map(|rigid| rigid.part);
-    for (body, nodes) in rigid.flat_map(|rigid| &rigid.ties) {
-        tied.extend(nodes.iter().map(|node| (*body, *node)));
+    let mut tied: BTreeMap<(BodyId, NodeId), usize> = BTreeMap::new();
+    for (index, rigid) in draft.rigid_surfaces.iter().enumerate() {
+        let ties = rigid.part.iter().flat_map(|part| &part.ties);
+        let nodes = ties.flat_map(|(body, nodes)| nodes.iter().map(|node| (*body, *node)));
+        let mut twice = None;
+        for at in nodes {
+            let first = *tied.entry(at).or_insert(index);
+            if first != index {
+                twice.get_or_insert((first, at));
+            }
+        }
+        if let Some((first, (body, node))) = twice {
+            let name = |rigid: usize| draft.rigid_surfaces[rigid].name.to_owned();
+            let kind = FaultKind::TiedTwice {
+                first: name(first),
+                second: name(index),
+                body: draft.bodies[body.0].name.into(),
+                node,
+            };
+            faults.push(Path::part("rigid_surfaces", index), kind);
+        }
     }
     for (index, of) in draft.steps.iter().enumerate() {
         if partial.contains(&index) {
@@ -35,7 +52,7 @@ pub(super) fn check(
         }
         let prescribed = step.displacements.iter().find_map(|condition| {
             let nodes = condition.nodes.iter();
-            let mut both = nodes.filter(|node| tied.contains(&(condition.body, **node)));
+            let mut both = nodes.filter(|node| tied.contains_key(&(condition.body, **node)));
             both.next().map(|node| (condition.body, *node))
         });
         if let Some((body, node)) = prescribed {

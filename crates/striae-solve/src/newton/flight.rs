@@ -20,7 +20,7 @@ use crate::{
 /// Way in one increment, over the size of the undeformed bodies, beyond what is prescribed.
 const FARTHEST: f64 = 100.0;
 
-/// The node that flies furthest, if one does; collective.
+/// The node that flies furthest, or else the first rigid body that does, if one does; collective.
 pub(super) fn flown(setting: &Setting, trial: &Trial) -> Option<CutBack> {
     let context = setting.context;
     let problem = context.problem;
@@ -34,13 +34,30 @@ pub(super) fn flown(setting: &Setting, trial: &Trial) -> Option<CutBack> {
     }
     let (share, before) = (&problem.share, &setting.state.positions);
     let size = problem.size();
-    let (body, node, way) = first(problem, furthest(before, &trial.positions))?;
-    if way <= FARTHEST * size + share.largest(prescribed(setting, trial)) {
-        return None;
+    let farthest = FARTHEST * size + share.largest(prescribed(setting, trial));
+    // Points of rigid bodies come after the nodes of all bodies.
+    let count = problem.first_node[problem.model.bodies.len()];
+    let of_bodies = first(
+        problem,
+        furthest(&before[..count], &trial.positions[..count]),
+    );
+    if let Some((body, node, way)) = of_bodies.filter(|(.., way)| *way > farthest) {
+        return Some(CutBack::Flown {
+            body: problem.model.bodies[body].name.clone(),
+            node,
+            way,
+            times: way / size,
+        });
     }
-    Some(CutBack::Flown {
-        body: problem.model.bodies[body].name.clone(),
-        node,
+    let before = setting.imposed.before.iter();
+    let ways = trial
+        .rigid
+        .iter()
+        .zip(before)
+        .map(|(now, before)| (now.displacement - before.displacement).norm());
+    let (rigid, way) = ways.enumerate().find(|(_, way)| *way > farthest)?;
+    Some(CutBack::RigidFlown {
+        rigid: problem.model.rigid_surfaces[rigid].name.clone(),
         way,
         times: way / size,
     })

@@ -234,8 +234,10 @@ fn verdict(model: Model) -> Verdict {
         judgement.increment(&run.problem, &states[0], &states[1], in_step);
     }
     let warnings = judgement.warnings(&run.problem, &run.ending);
-    // On coarse meshes corners of facets sink in, which is warned of; more is wrong.
+    // On coarse meshes corners of facets sink in, and friction acts across gaps that vanish in the
+    // mean only, which is warned of; more is wrong.
     let is_warned = |warning: &&Warning| match warning.kind {
+        Kind::Moment => warning.value < 0.1,
         Kind::Overlap | Kind::Penetration => warning.value < 0.3,
         kind => kind == Kind::Coarse,
     };

@@ -41,6 +41,19 @@ fn springs_in_series_share_their_force() {
 }
 
 #[test]
+fn a_rigid_body_that_a_spring_drags_away_is_named() {
+    let pull = spring_along("pull", reference_of("weight"), [1.0, 0.0, 0.0]);
+    let model = with_block("A weight that is dragged away")
+        .rigid(weight("weight", [1.0, 0.0, 0.0]))
+        .spring(pull.stiffness(1e-3).preload(-40.0))
+        .step(held("drag").move_rigid("weight", free(&[0])));
+    let model = model.build().unwrap();
+    let run = Simulation::new(model).unwrap().run().unwrap();
+    let said = run.ending.to_string();
+    assert!(said.contains("rigid body `weight` flies off"), "{said}");
+}
+
+#[test]
 fn a_body_stands_on_springs_under_its_nodes() {
     let rubber = Material::neo_hookean(LameConstants::from_youngs_modulus(10.0, 0.3).unwrap());
     let (pressure, stiffness) = (0.02, 0.5);
