@@ -72,9 +72,10 @@ pub enum FaultKind {
         /// The number.
         value: f64,
     },
-    /// An infinite duration for friction that depends on rate and state.
+    /// An infinite duration for friction with a state, or with a factor of one's own that depends on
+    /// the slip.
     #[error(
-        "friction of pairs[{pair}] depends on rate and state: state how long the increment takes"
+        "friction of pairs[{pair}] has a state or a factor that depends on slip: state how long the increment takes"
     )]
     Endless {
         /// The pair.

@@ -79,8 +79,8 @@ impl Imposed {
             return Err(Faults::one("duration", FaultKind::NotPositive { value }));
         }
         let mut members = contact.members().iter();
-        let creeps = members.position(|of| of.friction.rate_and_state().is_some());
-        if let Some(pair) = creeps.filter(|_| value.is_infinite()) {
+        let evolves = members.position(|of| of.friction.evolves());
+        if let Some(pair) = evolves.filter(|_| value.is_infinite()) {
             return Err(Faults::one("duration", FaultKind::Endless { pair }));
         }
         Ok(all)

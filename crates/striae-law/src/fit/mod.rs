@@ -223,11 +223,14 @@ pub fn fit(sought: &Sought, readings: &[Reading], level: f64) -> Result<Fit, Fit
         return Err(FitError::Level(level));
     }
     let mean = mean_friction(readings)?;
-    let shape = Shape::new(sought, readings);
     let undetermined = || FitError::Undetermined {
         law: sought.law.name,
         needed: sought.needed(),
     };
+    if readings.is_empty() {
+        return Err(undetermined());
+    }
+    let shape = Shape::new(sought, readings);
     let (q, free, inverse) = parameters(&shape, readings, mean).ok_or_else(undetermined)?;
     let friction = shape.friction(&q)?;
     let equations = equations(&shape, readings, &q);

@@ -316,6 +316,16 @@ impl Friction {
         self.coefficient.by_rate().is_some() || course.is_some_and(|course| course.goes_with_rate)
     }
 
+    /// Returns whether an increment needs a duration: friction has a state, or a factor that depends
+    /// on the slip of the increment or its rate.
+    pub fn evolves(&self) -> bool {
+        let has_state = |factor: &dyn FactorBatch| !factor.initial_state().is_empty();
+        let course = self.coefficient.course();
+        self.rate_and_state().is_some()
+            || self.factor().is_some_and(has_state)
+            || course.is_some_and(|course| course.goes_with_rate)
+    }
+
     /// Returns whether `varpi` falls with the slip rate anywhere.
     pub fn weakens(&self) -> bool {
         let course = self.coefficient.course();

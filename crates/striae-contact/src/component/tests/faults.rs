@@ -126,7 +126,7 @@ fn faults_of_increments_are_told_with_their_place() {
     let endless = creeping.begin(&creeping.untouched(), &Imposed::default());
     assert_eq!(
         endless.expect_err("a fault").to_string(),
-        "duration: friction of pairs[0] depends on rate and state: state how long the increment takes"
+        "duration: friction of pairs[0] has a state or a factor that depends on slip: state how long the increment takes"
     );
     let increment = contact.begin(&state, &Imposed::default()).unwrap();
     let evaluated = |x: &[Vec3], t: &[f64]| {
