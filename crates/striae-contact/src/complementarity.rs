@@ -9,10 +9,9 @@
 //! |y| <= varpi  : du = 0   else z = varpi y/|y|
 //! ```
 //!
-//! `P^` is the mean pressure over the support, which bounds friction; it counts as zero up to the
-//! round-off of a gap of the local size. Where the pressure is decided at the node, `p` takes its
-//! place, and the node is closed where `p - r_n g > 0`, else `p = 0`, `z = 0`. A node that has left
-//! the other side has `p = 0`, too.
+//! `P^` is the mean pressure over the support, which bounds friction. Where the pressure is
+//! decided at the node, `p` takes its place, and the node is closed where `p - r_n g > 0`, else
+//! `p = 0`, `z = 0`. A node that has left the other side has `p = 0`, too.
 //!
 //! with `varpi rho(y)` for `varpi` where friction is tabulated, see
 //! [`striae_law::friction::Kernel::reach`].
@@ -85,7 +84,7 @@ pub fn rows(
             let stated = is_free && node.kinematics.presence == Presence::Facing;
             let pressed = match first {
                 true => supported.touches,
-                false => state.bounding_pressure() > f64::EPSILON * r_n * size,
+                false => state.bounding_pressure() > 0.0,
             };
             (stated, stated && pressed)
         }
