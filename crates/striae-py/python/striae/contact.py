@@ -165,7 +165,8 @@ class Contact(Made):
             from where they are at rest, of shape (3,) (length), or a rigid motion from there, of
             shape (4, 4), with the shift in the last column. Others stay where they are.
         duration: of the increment (time), for friction that depends on the slip rate; by default
-            it is infinitely slow, which friction by rate and state does not take.
+            it is infinitely slow, which friction with a state, by rate and state, or with a factor
+            of one's own that depends on slip does not take.
         """
         ends = [
             None if given is None else check.rows(given, name)

@@ -7,7 +7,6 @@
 
 use striae_contact::{
     evaluation::Evaluation,
-    pair_state::PairState,
     unknowns::{NodeResult, Status},
 };
 
@@ -18,9 +17,6 @@ use crate::{
     outcome::CutBack,
     state::State,
 };
-
-/// Gap over the size of the model below which surfaces touch.
-const TOUCHING: f64 = 1e-9;
 
 /// Pairs that are closed somewhere.
 pub(super) fn closed(contacts: &[Evaluation]) -> Vec<bool> {
@@ -33,18 +29,6 @@ pub(super) fn closed(contacts: &[Evaluation]) -> Vec<bool> {
 fn is_closed(nodes: &[Vec<NodeResult>; 2]) -> bool {
     let mut nodes = nodes.iter().flatten();
     nodes.any(|node| node.status != Status::Open)
-}
-
-/// Returns whether a pair bears in a converged state, or touches without load, as where a load that
-/// changes its sign is zero at the end of an increment.
-fn touches(pair: &PairState, touching: f64) -> bool {
-    let mut nodes = pair
-        .kept
-        .iter()
-        .flatten()
-        .zip(pair.nodes.iter().flatten())
-        .filter(|(kept, _)| **kept);
-    nodes.any(|(_, node)| node.status != Status::Open || node.gap.abs() <= touching)
 }
 
 /// The body that is free, if contact that held it in `state` has opened when the increment
@@ -70,9 +54,8 @@ pub(super) fn released(
     if !may_be || procedure != Procedure::QuasiStatic {
         return None;
     }
-    let touching = TOUCHING * context.problem.size();
     let has_opened = |pair: usize| {
-        !closed[pair] && context.stabilisation[pair] == 0.0 && touches(&state.pairs[pair], touching)
+        !closed[pair] && context.stabilisation[pair] == 0.0 && is_closed(&state.pairs[pair].nodes)
     };
     let pair = (0..closed.len()).find(|&pair| has_opened(pair))?;
     let none = [Vec::new(), Vec::new()];
