@@ -148,8 +148,9 @@ class Friction(Dependences):
         given: the factor is not negative, its product with the pressure does not fall with the
         pressure, it does not jump with pressure or slip rate, its slope by the slip rate is finite
         at rest, both surfaces see the same factor, derivatives are right, and a state neither
-        changes in no time nor depends on how time is divided. Otherwise one :class:`ModelError` says what is wrong. During a run a negative
-        factor or an exception ends the run, and the message names the law.
+        changes in no time nor depends on how time is divided. Otherwise one :class:`ModelError`
+        says what is wrong. During a run a negative factor or an exception ends the run, and the
+        message names the law.
 
         factor: from points to factors, of shape (n,), or :class:`FactorSlopes`.
         name: of the law in messages; states go on under it where a step changes the law.
