@@ -11,6 +11,7 @@
 //!
 //! which is the rotation in the polar decomposition of the surface's deformation: the same
 //! at all nodes where that is homogeneous, whatever their edges, and that of rigid motion.
+//! Where `sum_j E_j E_j` has rank 1, its pseudo-inverse gives the rotation of that line.
 
 use nalgebra::{Matrix2, Matrix3, Vector2};
 use striae_mesh::Vec3;
@@ -24,18 +25,18 @@ use crate::{
     transported::Transported,
 };
 
+/// Round-off of a determinant in units of the square of the trace.
+const ROUND_OFF: f64 = 1e-14;
+
 /// `tau^n'` of a node with the present `frame`, from its components along the tangents in
 /// the configuration `start`.
-///
-/// # Errors
-/// If the facets around the node had collapsed to a line.
 pub fn converged_friction(
     configuration: &Configuration,
     start: &Configuration,
     (side, node): (Side, SurfaceNode),
     frame: &Frame,
     components: [f64; 2],
-) -> Result<Tracked, CollapsedFacets> {
+) -> Tracked {
     let old = frame_of(start, side, node);
     let n_old = old.n.value;
     let b = old.t.each_ref().map(|t| t.value);
@@ -43,10 +44,14 @@ pub fn converged_friction(
     let turned = |v: &Vec3| Transported::new(v, &n_old, &frame.n.value);
     let [b1, b2] = [turned(&b[0]), turned(&b[1])];
     let [u, v] = [turned(&tau), turned(&n_old.cross(&tau))];
-    let edges = edges(configuration, start, side, node, &b)?;
+    let edges = edges(configuration, start, (side, node), &b);
     let a = [0, 1].map(|k| edges.iter().map(|e| e.now * e.share[k]).sum::<Vec3>());
-    let c = b1.value.dot(&a[0]) + b2.value.dot(&a[1]);
+    let mut c = b1.value.dot(&a[0]) + b2.value.dot(&a[1]);
     let s = b2.value.dot(&a[0]) - b1.value.dot(&a[1]);
+    if c == 0.0 && s == 0.0 {
+        // No edge tells a rotation.
+        c = 1.0;
+    }
     let length = c.hypot(s);
     let value = (u.value * c + v.value * s) / length;
     let by_c = (u.value - value * (c / length)) / length;
@@ -67,16 +72,7 @@ pub fn converged_friction(
         jacobian[0].1 -= block;
     }
     add_chained(&mut jacobian, &by_n, &frame.n.jacobian);
-    Ok(Tracked { value, jacobian })
-}
-
-/// A node whose facets have collapsed to a line.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct CollapsedFacets {
-    /// Side of the pair.
-    pub side: Side,
-    /// Surface-local node.
-    pub node: SurfaceNode,
+    Tracked { value, jacobian }
 }
 
 /// An edge from a node.
@@ -91,10 +87,9 @@ struct Edge {
 fn edges(
     configuration: &Configuration,
     start: &Configuration,
-    side: Side,
-    node: SurfaceNode,
+    (side, node): (Side, SurfaceNode),
     tangents: &[Vec3; 2],
-) -> Result<Vec<Edge>, CollapsedFacets> {
+) -> Vec<Edge> {
     let (before, now) = (start.side(side), configuration.side(side));
     let corners = before.surface.corners(node);
     let mut ends: Vec<SurfaceNode> = corners
@@ -109,16 +104,46 @@ fn edges(
         Vector2::new(tangents[0].dot(&edge), tangents[1].dot(&edge))
     };
     let squares: Matrix2<f64> = ends.iter().map(|to| old(to) * old(to).transpose()).sum();
-    let inverse = squares
-        .try_inverse()
-        .ok_or(CollapsedFacets { side, node })?;
-    let edges = ends
-        .iter()
+    let inverse = inverse(&squares);
+    ends.iter()
         .map(|to| Edge {
             to: *to,
             now: now.x[*to] - now.x[node],
             share: (inverse * old(to)).into(),
         })
-        .collect();
-    Ok(edges)
+        .collect()
+}
+
+/// Inverse of `sum_j E_j E_j`; where the tangents see all edges in one line, as next to a rigid
+/// surface that stands upright on them, the pseudo-inverse.
+fn inverse(squares: &Matrix2<f64>) -> Matrix2<f64> {
+    let trace = squares.trace();
+    if squares.determinant() > ROUND_OFF * trace * trace
+        && let Some(inverse) = squares.try_inverse()
+    {
+        return inverse;
+    }
+    match trace > 0.0 {
+        true => Matrix2::identity() / trace,
+        false => Matrix2::zeros(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn edges_in_one_line_have_the_pseudo_inverse() {
+        let edges = [Vector2::new(0.3, -0.4), Vector2::new(0.6, -0.8)];
+        let squares: Matrix2<f64> = edges.iter().map(|e| e * e.transpose()).sum();
+        let share = inverse(&squares) * edges[0];
+        // The pseudo-inverse of `1.25 d d`, applied to `0.5 d`.
+        let expected = Vector2::new(0.6, -0.8) * (0.5 / 1.25);
+        assert!((share - expected).norm() < 1e-15);
+        assert_eq!(inverse(&Matrix2::zeros()), Matrix2::zeros());
+        let all = squares + Matrix2::new(0.01, 0.0, 0.0, 0.0);
+        let whole = inverse(&all) * all;
+        assert!((whole - Matrix2::identity()).norm() < 1e-12);
+    }
 }

@@ -15,7 +15,6 @@ use crate::{
     common_field::{CommonField, by_facet, segment_terms},
     complementarity::{Conditions, ContactNode, rows},
     configuration::Configuration,
-    converged_friction::CollapsedFacets,
     factors::{Evolving, NodeFactor, Seen, factors},
     field::{FacetForces, Fields, facet_terms},
     frame::{Frame, Frames, frames},
@@ -70,8 +69,6 @@ pub struct Evaluation {
 pub enum Collapse {
     /// A texture has no direction left.
     Texture(CollapsedTexture),
-    /// The facets around a node have collapsed to a line.
-    Facets(CollapsedFacets),
     /// The surfaces are folded over each other.
     Folded,
     /// A factor of friction is not sound, or its law has failed.
@@ -84,8 +81,8 @@ pub enum Collapse {
 /// at all. The rows are the same to the last bit.
 ///
 /// # Errors
-/// When a texture has no direction left, facets have collapsed, the surfaces are folded over each
-/// other, or friction has no factor.
+/// When a texture has no direction left, the surfaces are folded over each other, or friction has
+/// no factor.
 pub fn evaluate(
     configuration: &Configuration,
     start: &Configuration,
@@ -177,8 +174,7 @@ pub fn evaluate(
             tractions,
             tau: &tau,
         };
-        let added = ramp.add_to_slips(&mut kinematics);
-        added.map_err(Collapse::Facets)?;
+        ramp.add_to_slips(&mut kinematics);
     }
     let stage = Stage {
         configuration,

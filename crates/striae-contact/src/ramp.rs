@@ -24,7 +24,7 @@ use striae_mesh::Vec3;
 
 use crate::{
     configuration::Configuration,
-    converged_friction::{CollapsedFacets, converged_friction},
+    converged_friction::converged_friction,
     frame::{Frame, Frames},
     kinematics::{Kinematics, Presence, Pressure},
     places::ChainedSum,
@@ -173,23 +173,17 @@ type OfMemory<'a> = (&'a Memory<'a>, Vec<Coupled>);
 
 impl Ramp<'_> {
     /// Adds the contribution of the ramp to the slips.
-    ///
-    /// # Errors
-    /// If the facets around a node had collapsed to a line.
-    pub fn add_to_slips(&self, kinematics: &mut [Kinematics]) -> Result<(), CollapsedFacets> {
+    pub fn add_to_slips(&self, kinematics: &mut [Kinematics]) {
         let memories = self.memories(kinematics);
         let count = self.selection.coupling().len();
         let all = rows(&memories, count, |_| 1.0);
         let remembered = rows(&memories, count, |memory| memory.share);
         let fading = fading(&memories, count);
-        let found: Vec<_> = (0..count)
+        let ramped: Vec<Option<Ramped>> = (0..count)
             .into_par_iter()
             .with_min_len(8)
             .map(|k| self.ramped(k, &all[k]))
             .collect();
-        let found: Result<Vec<Option<Ramped>>, _> =
-            found.into_iter().map(Option::transpose).collect();
-        let ramped = found?;
         kinematics[..count]
             .par_iter_mut()
             .enumerate()
@@ -205,7 +199,6 @@ impl Ramp<'_> {
                     add((own, &ramped), coupling, &fading[k], weight, slip);
                 }
             });
-        Ok(())
     }
 
     /// Memories of the weak nodes of which friction is determined in all directions: one that lacks
@@ -250,7 +243,7 @@ impl Ramp<'_> {
         self.selection.flexibility(weak.kept as usize) * friction.fold(0.0, f64::max)
     }
 
-    fn ramped(&self, k: usize, all: &[Coupled]) -> Option<Result<Ramped<'_>, CollapsedFacets>> {
+    fn ramped(&self, k: usize, all: &[Coupled]) -> Option<Ramped<'_>> {
         if all.is_empty() {
             return None;
         }
@@ -259,11 +252,11 @@ impl Ramp<'_> {
         let components = self.tractions.tau_n[side][node];
         let at = (side, node);
         let before = converged_friction(self.configuration, self.start, at, frame, components);
-        Some(before.map(|before| Ramped {
+        Some(Ramped {
             frame,
             friction: &self.tau[side][node],
             before,
-        }))
+        })
     }
 }
 

@@ -79,16 +79,6 @@ pub enum CutBack {
         /// The node.
         node: striae_mesh::NodeId,
     },
-    /// The facets around a node have collapsed to a line.
-    #[error("pair `{pair}`: the facets around {node} of body `{body}` have collapsed to a line")]
-    CollapsedFacets {
-        /// Name of the pair.
-        pair: String,
-        /// Name of the body.
-        body: String,
-        /// The node.
-        node: striae_mesh::NodeId,
-    },
     /// The surfaces of a pair are folded over each other.
     #[error(
         "pair `{pair}`: its surfaces are folded over each other: the segments between their facets cover more than twice the area of a side"

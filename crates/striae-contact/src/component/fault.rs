@@ -126,12 +126,6 @@ pub enum FaultKind {
         /// The node.
         node: NodeId,
     },
-    /// Facets have collapsed.
-    #[error("the facets around {node} have collapsed; the increment is too large")]
-    CollapsedFacets {
-        /// The node.
-        node: NodeId,
-    },
     /// Surfaces are folded over each other.
     #[error("the surfaces are folded over each other; the increment is too large")]
     FoldedSurfaces,

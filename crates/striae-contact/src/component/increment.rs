@@ -17,7 +17,6 @@ use super::{
 use crate::{
     complementarity::{Conditions, Iteration, Prescribed},
     configuration::Configuration,
-    converged_friction::CollapsedFacets,
     evaluation::{Collapse, evaluate},
     pair_state::{Predicted, fit},
     segment::Derivatives,
@@ -324,9 +323,8 @@ impl Increment {
     }
 
     fn collapsed(&self, pair: usize, collapse: Collapse) -> Faults {
-        let (side, node, is_texture) = match collapse {
-            Collapse::Texture(CollapsedTexture { side, node }) => (side, node, true),
-            Collapse::Facets(CollapsedFacets { side, node }) => (side, node, false),
+        let (side, node) = match collapse {
+            Collapse::Texture(CollapsedTexture { side, node }) => (side, node),
             Collapse::Folded => {
                 return Faults::one(format!("pairs[{pair}]"), FaultKind::FoldedSurfaces);
             }
@@ -337,10 +335,7 @@ impl Increment {
         };
         let surface = self.contact.members()[pair].pair.sides[side].surface();
         let node = surface.map_or(NodeId(0), |surface| surface.nodes()[node.index()]);
-        let kind = match is_texture {
-            true => FaultKind::CollapsedTexture { node },
-            false => FaultKind::CollapsedFacets { node },
-        };
+        let kind = FaultKind::CollapsedTexture { node };
         Faults::one(format!("pairs[{pair}].{side}"), kind)
     }
 }

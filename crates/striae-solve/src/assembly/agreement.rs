@@ -76,14 +76,8 @@ fn written(fault: &CutBack) -> Vec<u8> {
             text(&mut bytes, body);
             number(&mut bytes, node.index());
         }
-        CutBack::CollapsedFacets { pair, body, node } => {
-            bytes.push(3);
-            text(&mut bytes, pair);
-            text(&mut bytes, body);
-            number(&mut bytes, node.index());
-        }
         CutBack::Folded { pair } => {
-            bytes.push(4);
+            bytes.push(3);
             text(&mut bytes, pair);
         }
         _ => {}
@@ -106,17 +100,14 @@ fn read(words: &mut Words) -> Option<CutBack> {
             set: words.text()?,
             error: words.load_error()?,
         }),
-        4 => Some(CutBack::Folded {
+        2 => Some(CutBack::CollapsedTexture {
+            pair: words.text()?,
+            body: words.text()?,
+            node: NodeId::new(words.number()?),
+        }),
+        _ => Some(CutBack::Folded {
             pair: words.text()?,
         }),
-        kind => {
-            let (pair, body) = (words.text()?, words.text()?);
-            let node = NodeId::new(words.number()?);
-            match kind {
-                2 => Some(CutBack::CollapsedTexture { pair, body, node }),
-                _ => Some(CutBack::CollapsedFacets { pair, body, node }),
-            }
-        }
     }
 }
 
@@ -258,11 +249,6 @@ mod tests {
                 pair: "sole".to_owned(),
                 body: "disc".to_owned(),
                 node: NodeId::new(5),
-            },
-            CutBack::CollapsedFacets {
-                pair: "sole".to_owned(),
-                body: "disc".to_owned(),
-                node: NodeId::new(6),
             },
             CutBack::Folded {
                 pair: "sole".to_owned(),

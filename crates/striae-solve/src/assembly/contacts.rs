@@ -3,7 +3,6 @@
 use striae_contact::{
     complementarity::{Conditions, Iteration},
     configuration::Configuration,
-    converged_friction::CollapsedFacets,
     evaluation::{Collapse, Evaluation, evaluate},
     segment::Derivatives,
     side::Side,
@@ -67,9 +66,8 @@ pub(super) fn contacts(
 
 fn not_evaluated(problem: &Problem, pair: usize, collapse: Collapse) -> CutBack {
     let name = || problem.model.pairs[pair].name.clone();
-    let (side, node, is_texture) = match collapse {
-        Collapse::Texture(CollapsedTexture { side, node }) => (side, node, true),
-        Collapse::Facets(CollapsedFacets { side, node }) => (side, node, false),
+    let (side, node) = match collapse {
+        Collapse::Texture(CollapsedTexture { side, node }) => (side, node),
         Collapse::Folded => return CutBack::Folded { pair: name() },
         Collapse::Factor(failure) => {
             return CutBack::Factor {
@@ -84,10 +82,7 @@ fn not_evaluated(problem: &Problem, pair: usize, collapse: Collapse) -> CutBack 
     let (body, node) = problem.named_node(global);
     let pair = name();
     let body = problem.model.bodies[body].name.clone();
-    match is_texture {
-        true => CutBack::CollapsedTexture { pair, body, node },
-        false => CutBack::CollapsedFacets { pair, body, node },
-    }
+    CutBack::CollapsedTexture { pair, body, node }
 }
 
 impl System<'_> {

@@ -85,7 +85,6 @@ fn evaluated<T>(found: Result<T, CutBack>) -> Result<Option<T>, CutBack> {
             CutBack::InvertedElement { .. }
             | CutBack::Load { .. }
             | CutBack::CollapsedTexture { .. }
-            | CutBack::CollapsedFacets { .. }
             | CutBack::Folded { .. }
             | CutBack::Factor { .. },
         ) => Ok(None),
@@ -100,7 +99,7 @@ mod tests {
 
     #[test]
     fn only_faults_of_the_state_mean_that_nothing_was_reached() {
-        let at = |pair: &str| CutBack::CollapsedFacets {
+        let at = |pair: &str| CutBack::CollapsedTexture {
             pair: pair.to_owned(),
             body: String::new(),
             node: NodeId::new(3),
