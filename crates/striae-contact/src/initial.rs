@@ -7,9 +7,12 @@
 //!
 //! A point faces the other side if `n . n_other < -.2` and it is not beyond its edge.
 
+mod faces;
+
 use rayon::prelude::*;
 use striae_mesh::Vec3;
-use striae_surface::node::SurfaceNode;
+
+pub use faces::{Faces, overlaps};
 
 use crate::{
     interference::{
@@ -111,57 +114,12 @@ pub fn fit(stage: &Stage) -> Fit {
     }
 }
 
-/// Gap of a node and the point of the other side that it would have to go to, if it faces
-/// that or is inside.
-pub fn signed_gap(stage: &Stage, side: Side, node: SurfaceNode) -> Option<(f64, Vec3)> {
-    if stage.configuration.pair.is_in_one_body() {
-        return None;
-    }
-    let seen = seen(stage, side, Spot::Node(node))?;
-    let gap = match seen.standing {
-        Standing::Front => seen.faces.then_some(seen.opening.gap),
-        Standing::Behind => seen.within.then_some(-seen.opening.gap),
-        Standing::Beside => None,
-    };
-    gap.map(|gap| (gap, seen.target))
-}
-
-/// Initial overlap of every node of every side with facets, zero where there is none.
-/// Beyond the edge of the other side it is that with the plane of the nearest facet, for
-/// the width of a facet, so that interpolated overlaps are right up to the edge.
-pub fn overlaps(stage: &Stage) -> [Vec<f64>; 2] {
-    let mut all = [Vec::new(), Vec::new()];
-    if stage.configuration.pair.is_in_one_body() {
-        return all;
-    }
-    for side in sides(stage) {
-        let snapshot = stage.configuration.side(side);
-        let of_node = |node: SurfaceNode| {
-            let seen = seen(stage, side, Spot::Node(node))?;
-            let near = seen.opening.gap < snapshot.sizes[node];
-            match seen.standing {
-                Standing::Front => None,
-                Standing::Behind => seen.within.then_some(seen.opening.gap),
-                Standing::Beside => (near && seen.depth > 0.0).then_some(seen.depth),
-            }
-        };
-        let nodes = SurfaceNode::all(snapshot.x.len());
-        all[side] = nodes.map(|node| of_node(node).unwrap_or(0.0)).collect();
-    }
-    all
-}
-
 /// View of the other side from a point.
 struct Seen {
     opening: Opening,
     standing: Standing,
     /// `true` if the point is in front of the facet it sees and faces it.
     faces: bool,
-    /// `true` if a point behind the surface is inside the body.
-    within: bool,
-    /// Distance behind the plane of the nearest facet.
-    depth: f64,
-    target: Vec3,
 }
 
 fn sides(stage: &Stage) -> impl Iterator<Item = Side> {
@@ -172,15 +130,9 @@ fn sides(stage: &Stage) -> impl Iterator<Item = Side> {
 fn seen(stage: &Stage, side: Side, spot: Spot) -> Option<Seen> {
     let own = stage.configuration.side(side);
     let point = position(own, spot);
-    let (nearest, thickness) = match stage.configuration.plane() {
-        Some(plane) => (on_plane(&point, &plane), f64::INFINITY),
-        None => {
-            let nearest = nearest_of(stage.configuration.side(side.opposite()), &point)?;
-            (
-                nearest,
-                stage.thickness.0[side.opposite()][nearest.facet.index()],
-            )
-        }
+    let nearest = match stage.configuration.plane() {
+        Some(plane) => on_plane(&point, &plane),
+        None => nearest_of(stage.configuration.side(side.opposite()), &point)?,
     };
     let cosine = normal_at(own, spot).dot(&nearest.normal);
     Some(Seen {
@@ -192,9 +144,6 @@ fn seen(stage: &Stage, side: Side, spot: Spot) -> Option<Seen> {
         },
         standing: nearest.standing,
         faces: nearest.standing == Standing::Front && cosine < FACING,
-        within: nearest.standing == Standing::Behind && nearest.distance < thickness,
-        depth: (nearest.point - point).dot(&nearest.normal),
-        target: nearest.point,
     })
 }
 

@@ -40,7 +40,7 @@ pub use overlap::{Overlap, PlacedSkins, Skins};
 pub use thickness::{Fibre, Thickness, fibres, lengths};
 
 use crate::{
-    configuration::{Configuration, Snapshot},
+    configuration::{Configuration, Enclosed, Snapshot},
     pair::Enclosure,
     segment::FACING,
     side::Side,
@@ -204,12 +204,31 @@ pub fn nearest_of(snapshot: &Snapshot, x: &Vec3) -> Option<Nearest> {
     let Some(enclosed) = &snapshot.enclosed else {
         return placed(snapshot).nearest(x);
     };
-    let skin = Placed {
-        surface: &enclosed.enclosure.surface,
-        tree: &enclosed.tree,
-        x: |node| enclosed.x[node],
+    of_side_itself(enclosed.enclosure, skin(enclosed).nearest(x)?)
+}
+
+/// Position relative to the facets of a side alone that are opposed to one of the directions
+/// `normals`; `None` where another such part of its skin is nearer.
+///
+/// Behind is only what is inside the body, or by up to `round_off` outside.
+pub(crate) fn nearest_facing(
+    snapshot: &Snapshot,
+    x: &Vec3,
+    (normals, round_off): (&[Vec3], f64),
+) -> Option<Nearest> {
+    let nearest = placed(snapshot).nearest_facing(x, normals)?;
+    let Some(enclosed) = &snapshot.enclosed else {
+        return Some(nearest);
     };
-    of_side_itself(enclosed.enclosure, skin.nearest(x)?)
+    let skin = skin(enclosed);
+    of_side_itself(enclosed.enclosure, skin.nearest_facing(x, normals)?)?;
+    let is_inside = || {
+        let of_all = skin.nearest(x);
+        of_all.is_some_and(|of_all| {
+            of_all.standing == Standing::Behind || of_all.distance <= round_off
+        })
+    };
+    (nearest.standing != Standing::Behind || is_inside()).then_some(nearest)
 }
 
 /// The nearest point of a skin as one of the side; `None` if it belongs to another part.
@@ -248,6 +267,15 @@ fn located(surface: &Surface, spot: Spot, x: impl Fn(SurfaceNode) -> Vec3) -> Ve
     }
 }
 
+fn skin<'a>(enclosed: &'a Enclosed) -> Placed<'a, impl Fn(SurfaceNode) -> Vec3 + 'a> {
+    Placed {
+        surface: &enclosed.enclosure.surface,
+        tree: &enclosed.tree,
+        x: |node| enclosed.x[node],
+    }
+}
+
+/// Facets of a side alone, without the rest of its skin.
 fn placed<'a>(snapshot: &'a Snapshot) -> Placed<'a, impl Fn(SurfaceNode) -> Vec3 + 'a> {
     Placed {
         surface: snapshot.surface,

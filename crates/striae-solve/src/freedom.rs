@@ -12,7 +12,7 @@
 
 use nalgebra::{DMatrix, Matrix3, SymmetricEigen};
 use striae_contact::{
-    initial::signed_gap,
+    initial::Faces,
     interference::{Stage, facing},
     side::Side,
     unknowns::{NodeResult, Status},
@@ -156,11 +156,13 @@ fn touching(context: &StepContext, pair: usize) -> [Vec<NodeResult>; 2] {
         configuration: &configuration,
         thickness: &thickness(context.problem, pair, at.nodes),
     };
+    let faces = Faces::new(&stage);
     let mut nodes = [Vec::new(), Vec::new()];
     for &side in context.pairs[pair].deformable_sides() {
         let snapshot = configuration.side(side);
         let result = |node: SurfaceNode| {
-            let touches = signed_gap(&stage, side, node)
+            let touches = faces
+                .signed_gap(side, node)
                 .is_some_and(|(gap, _)| gap <= TOUCHING * snapshot.sizes[node]);
             NodeResult {
                 normal: snapshot.normals[node],

@@ -15,7 +15,7 @@ use striae_surface::{
 };
 
 use super::triangle::{self, Part};
-use crate::search::Tree;
+use crate::{search::Tree, segment::FACING};
 
 /// The nearest point of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,7 +44,7 @@ pub enum Standing {
 }
 
 /// A surface with its nodes somewhere.
-pub(super) struct Placed<'a, F: Fn(SurfaceNode) -> Vec3> {
+pub(crate) struct Placed<'a, F: Fn(SurfaceNode) -> Vec3> {
     /// Topology.
     pub surface: &'a Surface,
     /// Tree over boxes that hold the facets.
@@ -83,9 +83,24 @@ pub(super) fn triangles(
 
 impl<F: Fn(SurfaceNode) -> Vec3> Placed<'_, F> {
     /// The point of the surface nearest to `x`; `None` without facets.
-    pub(super) fn nearest(&self, x: &Vec3) -> Option<Nearest> {
+    pub(crate) fn nearest(&self, x: &Vec3) -> Option<Nearest> {
+        self.nearest_among(x, |_| true)
+    }
+
+    /// The point nearest to `x` of the facets that face one of the directions `normals`.
+    pub(crate) fn nearest_facing(&self, x: &Vec3, normals: &[Vec3]) -> Option<Nearest> {
+        self.nearest_among(x, |facet| {
+            let normal = self.area(facet).normalize();
+            normals.iter().any(|of| of.dot(&normal) < FACING)
+        })
+    }
+
+    fn nearest_among(&self, x: &Vec3, counts: impl Fn(FacetId) -> bool) -> Option<Nearest> {
         let mut best: Option<(f64, u32, Vec3, Feature)> = None;
         self.tree.visit_nearest(x, |facet| {
+            if !counts(FacetId(facet)) {
+                return f64::INFINITY;
+            }
             let (point, feature) = self.on_facet(facet, x);
             let square = (point - x).norm_squared();
             if best

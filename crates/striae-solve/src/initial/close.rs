@@ -2,7 +2,7 @@
 
 use std::{cmp::Ordering, collections::BTreeMap};
 
-use striae_contact::{initial::signed_gap, interference::Stage, side::Side};
+use striae_contact::{initial::Faces, interference::Stage, side::Side};
 use striae_mesh::{MeshError, Vec3};
 use striae_surface::node::SurfaceNode;
 
@@ -126,8 +126,9 @@ fn chosen(stage: &Stage, side: Side, gaps: ClosedGaps) -> Vec<(SurfaceNode, Vec3
         ClosedGaps::Share(share) => share * snapshot.sizes[node],
         ClosedGaps::UpTo(gap) => gap,
     };
+    let faces = Faces::new(stage);
     let within = |node: SurfaceNode| {
-        let (gap, target) = signed_gap(stage, side, node)?;
+        let (gap, target) = faces.signed_gap(side, node)?;
         (gap <= limit(node) * (1.0 + 1e-9)).then_some((node, target))
     };
     SurfaceNode::all(snapshot.x.len())

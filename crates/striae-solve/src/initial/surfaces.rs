@@ -6,8 +6,7 @@
 
 use rayon::prelude::*;
 use striae_contact::{
-    initial::signed_gap, interference::Stage, side::Side, texture::SideTexture,
-    unknowns::NodeResult,
+    initial::Faces, interference::Stage, side::Side, texture::SideTexture, unknowns::NodeResult,
 };
 use striae_mesh::Vec3;
 use striae_surface::node::SurfaceNode;
@@ -30,6 +29,7 @@ fn of_pair(problem: &Problem, state: &State, pair: usize) -> [Vec<NodeResult>; 2
         configuration: &configuration(problem, pair, state.into()),
         thickness: &thickness(problem, pair, &state.positions),
     };
+    let faces = Faces::new(&stage);
     Side::BOTH.map(|side| {
         if problem.pairs[pair].bodies[side].is_none() {
             return state.pairs[pair].nodes[side].clone();
@@ -37,11 +37,13 @@ fn of_pair(problem: &Problem, state: &State, pair: usize) -> [Vec<NodeResult>; 2
         let nodes = 0..stage.configuration.side(side).x.len();
         let nodes = nodes.into_par_iter().with_min_len(16);
         let nodes = nodes.map(SurfaceNode::new);
-        nodes.map(|node| of_node(&stage, side, node)).collect()
+        nodes
+            .map(|node| of_node(&stage, &faces, side, node))
+            .collect()
     })
 }
 
-fn of_node(stage: &Stage, side: Side, node: SurfaceNode) -> NodeResult {
+fn of_node(stage: &Stage, faces: &Faces, side: Side, node: SurfaceNode) -> NodeResult {
     let snapshot = stage.configuration.side(side);
     let normal = snapshot.normals[node];
     let texture = match &stage.configuration.pair.sides[side].texture {
@@ -49,7 +51,7 @@ fn of_node(stage: &Stage, side: Side, node: SurfaceNode) -> NodeResult {
         _ => None,
     };
     NodeResult {
-        gap: signed_gap(stage, side, node).map_or(0.0, |(gap, _)| gap),
+        gap: faces.signed_gap(side, node).map_or(0.0, |(gap, _)| gap),
         normal,
         texture: texture.map_or(Vec3::zeros(), |axes| axes.s),
         ..NodeResult::default()

@@ -111,3 +111,32 @@ fn a_node_on_an_edge_closes_the_gaps_of_both_of_its_faces() {
         assert!((closed / flush - 1.0).abs() < 0.02, "{closed} and {flush}");
     }
 }
+
+/// Two blocks that overlap and end at the same edges, where nodes lie on the flanks of the other
+/// one, or one that ends nearer to them than it overlaps.
+#[test]
+fn overlaps_at_edges_are_those_of_the_faces_that_meet() {
+    let cases = [
+        (0.0, 1.0, "close"),
+        (0.0, 1.0, "resolve"),
+        (-0.01, 1.02, "resolve"),
+        (0.004, 1.1, "resolve"),
+    ];
+    for (left, width, initial) in cases {
+        let deck = ABOVE.replace(
+            "origin = [0.2, 0.1, 1.05], size = [0.6, 0.6, 0.5]",
+            &format!("origin = [{left}, 0, 0.98], size = [{width}, 1, 0.5]"),
+        );
+        let named = format!(
+            "[[pair]]\nname = \"lower-upper\"\na = {{ body = \"lower\", facets = \"zmax\" }}\n\
+             b = {{ body = \"upper\", facets = \"zmin\" }}\ninitial = \"{initial}\""
+        );
+        let all = format!("[contact]\nall = true\ninitial = \"{initial}\"");
+        let [all, named] =
+            [all, named].map(|contact| forces(&deck, &contact, &[("lower-upper", "z")])[0]);
+        assert!(
+            (all / named - 1.0).abs() < 1e-6,
+            "{left}, {initial}: {all} and {named}"
+        );
+    }
+}
