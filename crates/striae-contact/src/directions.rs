@@ -22,28 +22,35 @@
 //! (v_k - sum N_J v_J/sum N_J) . c != 0
 //! ```
 //!
+//! A node that displacements hold along such a direction, past something deformable that is free
+//! there, slips by an amount that is unknown and matters: its friction follows that of its
+//! neighbours, see `directions/following.rs`.
+//!
 //! Directions are components along the nodal tangents and constant in an increment.
 //!
 //! Null vectors of a mass matrix fade by .27 from node to node: columns further than two couplings
 //! from a contested one have no effect.
 
+mod following;
 mod gram;
 
 use std::collections::BTreeMap;
 
-use nalgebra::{Matrix2, SymmetricEigen, Vector2};
+use nalgebra::{Matrix2, Matrix3, SymmetricEigen, Vector2};
 use striae_mesh::Vec3;
 use striae_surface::node::SurfaceNode;
 
 use crate::{
     coverage::Place,
-    frame::{Frame, frame_of},
+    frame::frame_of,
     moved_pair::{Actions, MOSTLY, MovedPair, product},
+    pair::Enforcement,
     placement::Placement,
     side::Side,
     slip_freedom::SlipFreedom,
-    traction_basis::KeptNode,
+    traction_basis::{KeptNode, Weak},
 };
+use following::Following;
 use gram::{Gram, Node, combination};
 
 /// Eigenvalue from which a direction is determined, in the scale of pivots.
@@ -65,14 +72,36 @@ pub struct Party<'a> {
     pub placements: Option<[Placement; 2]>,
 }
 
+/// Directions of friction of the kept nodes of a pair.
+pub struct Directions {
+    /// Directions in which friction is determined.
+    pub slip_freedoms: Vec<SlipFreedom>,
+    /// Nodes whose friction follows that of others.
+    pub following: Vec<Weak>,
+}
+
+/// Motion of a node along a direction that is not kept, past what it faces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Passing {
+    /// Prescribed, and none.
+    None,
+    /// Prescribed.
+    Prescribed,
+    /// The node is held, what it faces is not.
+    Open,
+    /// The node itself is free, or nobody knows.
+    Unknown,
+}
+
 /// The directions of all kept nodes of all pairs; none where nothing is prescribed and no node is
 /// in two pairs, so that all are determined.
-pub fn slip_freedoms(parties: &[Party]) -> Option<Vec<Vec<SlipFreedom>>> {
+pub fn directions(parties: &[Party]) -> Option<Vec<Directions>> {
     let disturbed = disturbed(parties)?;
     let mut gram = Gram::default();
     let mut nodes = Vec::new();
-    for party in parties {
-        for (actions, closed) in party.moved.actions().iter().zip(&party.closed) {
+    let actions: Vec<Vec<Actions>> = parties.iter().map(|party| party.moved.actions()).collect();
+    for (party, actions) in parties.iter().zip(&actions) {
+        for (actions, closed) in actions.iter().zip(&party.closed) {
             nodes.push(Node::new(
                 actions,
                 (actions.touches || *closed, party.has_friction),
@@ -83,40 +112,104 @@ pub fn slip_freedoms(parties: &[Party]) -> Option<Vec<Vec<SlipFreedom>>> {
     }
     gram.contest(&mut nodes);
     let mut freedoms = nodes.iter().map(Node::freedom);
-    let of_party = |party: &Party| {
-        let of_kept = party.moved.selection.kept().iter().zip(freedoms.by_ref());
-        of_kept
-            .map(|(kept, freedom)| match party.drives(kept, freedom) {
-                true => SlipFreedom::Driven,
-                false => freedom,
-            })
-            .collect()
+    let of_party = |(party, actions): (&Party, &Vec<Actions>)| {
+        let count = party.moved.selection.kept().len();
+        let kept: Vec<SlipFreedom> = freedoms.by_ref().take(count).collect();
+        party.directions(actions, kept)
     };
-    Some(parties.iter().map(of_party).collect())
+    Some(parties.iter().zip(&actions).map(of_party).collect())
 }
 
 impl Party<'_> {
-    /// Returns whether prescribed motions move a node along a direction that is not kept.
-    fn drives(&self, kept: &KeptNode, freedom: SlipFreedom) -> bool {
-        if !self.has_friction || freedom == SlipFreedom::Plane {
-            return false;
+    /// Directions of friction, from those that are kept.
+    fn directions(&self, actions: &[Actions], kept: Vec<SlipFreedom>) -> Directions {
+        let mut slip_freedoms = kept;
+        let mut following = Following::new(&self.moved, actions);
+        if self.has_friction {
+            let nodes = self.moved.selection.kept().iter().zip(&mut slip_freedoms);
+            for (k, (node, freedom)) in nodes.enumerate() {
+                if let Some((now, c)) = self.passed(node, *freedom) {
+                    *freedom = now;
+                    c.into_iter().for_each(|c| following.add(k, c));
+                }
+            }
+        }
+        Directions {
+            slip_freedoms,
+            following: following.rows(),
+        }
+    }
+
+    /// Freedom of a node whose slip along directions that are not kept matters, and one that is
+    /// unknown; `None` where it keeps its freedom.
+    fn passed(&self, kept: &KeptNode, freedom: SlipFreedom) -> Option<(SlipFreedom, Option<Vec3>)> {
+        if freedom == SlipFreedom::Plane {
+            return None;
         }
         let (configuration, (side, node)) = (self.moved.configuration, kept.place());
-        let Frame { t: [t1, t2], .. } = frame_of(configuration, side, node);
+        let (contact, _) = configuration.opposite(side, node)?;
+        let frame = frame_of(configuration, side, node);
+        let t = frame.t.each_ref().map(|t| t.value);
         let lost = match freedom {
-            SlipFreedom::Line([q1, q2]) => vec![t2.value * q1 - t1.value * q2],
-            _ => vec![t1.value, t2.value],
+            SlipFreedom::Line([q1, q2]) => vec![Vector2::new(-q2, q1)],
+            _ => self.principal(&contact.place, side, &t),
         };
-        let Some((contact, _)) = configuration.opposite(side, node) else {
-            return false;
+        let lost: Vec<(Vector2<f64>, Vec3)> = lost
+            .into_iter()
+            .map(|q| (q, t[0] * q.x + t[1] * q.y))
+            .collect();
+        let passings = lost
+            .iter()
+            .map(|(_, c)| self.passing(kept, &contact.place, c));
+        let passings: Vec<Passing> = passings.collect();
+        if passings.contains(&Passing::Prescribed) {
+            return Some((SlipFreedom::Driven, None));
+        }
+        let at = passings.iter().position(|of| *of == Passing::Open)?;
+        let (q, c) = lost[at];
+        let all = passings.iter().all(|of| *of == Passing::Open);
+        let now = match all {
+            true => SlipFreedom::Plane,
+            false => SlipFreedom::Line(q.into()),
+        };
+        Some((now, Some(c)))
+    }
+
+    /// Directions along the tangents `t` in which what a node of a side faces is most and least
+    /// free.
+    fn principal(&self, place: &Place, side: Side, t: &[Vec3; 2]) -> Vec<Vector2<f64>> {
+        let configuration = self.moved.configuration;
+        let weights = match configuration.pair.is_rigid() {
+            true => None,
+            false => place.weights(configuration, side),
+        };
+        let Some((corners, weights)) = weights else {
+            return vec![Vector2::x(), Vector2::y()];
+        };
+        let movers = &self.moved.movers[configuration.pair.opposing(side)];
+        let corners = corners.iter().zip(weights);
+        let free: Matrix3<f64> = corners
+            .map(|(corner, weight)| movers[corner.index()].free() * weight)
+            .sum();
+        let free = Matrix2::from_fn(|i, j| t[i].dot(&(free * t[j])));
+        let axes = SymmetricEigen::new(free).eigenvectors;
+        vec![axes.column(0).into(), axes.column(1).into()]
+    }
+
+    fn passing(&self, kept: &KeptNode, place: &Place, c: &Vec3) -> Passing {
+        let (configuration, (side, node)) = (self.moved.configuration, kept.place());
+        let Some(own) = self.moved.movers[side][node].imposed(c) else {
+            return Passing::Unknown;
         };
         let round_off = ROUND_OFF * configuration.size(side, node);
-        lost.iter().any(|c| {
-            let own = self.moved.movers[side][node].imposed(c);
-            let opposing = own.and_then(|_| self.imposed_on(&contact.place, side, c));
-            own.zip(opposing)
-                .is_some_and(|(own, opposing)| (own - opposing).abs() > round_off)
-        })
+        match self.imposed_on(place, side, c) {
+            Some(opposing) if (own - opposing).abs() > round_off => Passing::Prescribed,
+            Some(_) => Passing::None,
+            // A rigid body has no positions of its own that an interpolation could go by.
+            None if configuration.pair.is_rigid() => Passing::Unknown,
+            None if configuration.pair.enforcement == Enforcement::Collocated => Passing::Unknown,
+            None => Passing::Open,
+        }
     }
 
     /// Motion along a unit vector of the point that a node of a side faces; `None` unless most of

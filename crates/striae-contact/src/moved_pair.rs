@@ -62,7 +62,7 @@ impl Mover {
     }
 
     /// Projection to the directions that are not prescribed.
-    fn free(&self) -> Matrix3<f64> {
+    pub(crate) fn free(&self) -> Matrix3<f64> {
         let free = self.prescribed.map(|held| f64::from(u8::from(!held)));
         let along_axes = Matrix3::from_diagonal(&free.into());
         match self.axes {
@@ -100,6 +100,8 @@ pub(crate) struct Actions {
     pub whole: BTreeMap<u32, [Vec3; 3]>,
     /// Projections to what is free of the movers.
     free: BTreeMap<u32, Matrix3<f64>>,
+    /// `D_kJ`.
+    masses: BTreeMap<u32, f64>,
     /// A segment of the node touches.
     pub touches: bool,
 }
@@ -110,6 +112,17 @@ impl Actions {
         let free =
             |(number, whole): (&u32, &[Vec3; 3])| (*number, self.free[number] * whole[component]);
         self.whole.iter().map(free).collect()
+    }
+
+    /// `D_kJ`.
+    pub fn masses(&self) -> impl Iterator<Item = (u32, f64)> {
+        self.masses.iter().map(|(number, mass)| (*number, *mass))
+    }
+
+    /// `D_kJ` of the movers that are mostly free along a unit vector.
+    pub fn responding(&self, c: Vec3) -> impl Iterator<Item = (u32, f64)> {
+        let responds = move |number: u32| (self.free[&number] * c).norm_squared() >= MOSTLY;
+        self.masses().filter(move |(number, _)| responds(*number))
     }
 }
 
@@ -145,17 +158,16 @@ impl MovedPair<'_> {
                     let kappa = kappa(configuration, side, node);
                     let by = SIGNS[corner] * (kappa / scale).sqrt();
                     let mass = &paired.segment.mass[corner];
-                    let share = |shares: &[f64; 8]| -> f64 {
-                        by * shares
-                            .iter()
-                            .zip(mass)
-                            .map(|(share, m)| share * m)
-                            .sum::<f64>()
+                    let integral = |shares: &[f64; 8]| -> f64 {
+                        let shares = shares.iter().zip(mass);
+                        shares.map(|(share, m)| share * m).sum()
                     };
-                    let [pressure, friction] = [&on_segment.shares, &on_segment.slips].map(share);
-                    if scale == 0.0 || pressure == 0.0 || mover.is_rigid() {
+                    let mass = integral(&on_segment.shares);
+                    if scale == 0.0 || mass == 0.0 || mover.is_rigid() {
                         continue;
                     }
+                    let [pressure, friction] = [mass, integral(&on_segment.slips)].map(|m| by * m);
+                    *actions[k].masses.entry(mover.number).or_default() += mass;
                     let whole = actions[k].whole.entry(mover.number).or_default();
                     whole[0] += n * pressure;
                     for (sum, direction) in whole[1..].iter_mut().zip(&directions) {

@@ -204,7 +204,7 @@ impl Ramp<'_> {
     /// Memories of the weak nodes of which friction is determined in all directions: one that lacks
     /// a direction has no ramp.
     fn memories(&self, kinematics: &[Kinematics]) -> Vec<Memory<'_>> {
-        let weak = self.selection.ramp().iter();
+        let weak = self.selection.on_friction();
         let weak = weak
             .filter(|weak| self.selection.slip_freedom(weak.kept as usize) == SlipFreedom::Plane);
         weak.map(|weak| {

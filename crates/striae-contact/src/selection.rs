@@ -113,6 +113,7 @@ impl Selection {
             offsets: [Vec::new(), Vec::new()],
             worn: [Vec::new(), Vec::new()],
             slip_freedoms: Vec::new(),
+            following: Vec::new(),
             fitted: None,
             has_yielded: false,
         }

@@ -6,7 +6,7 @@ use super::{contact::Contact, imposed::Imposed, numbers::nodes_of, state::State}
 use crate::{
     common_pivots::independent,
     configuration::Configuration,
-    directions::{Party, slip_freedoms},
+    directions::{Party, directions},
     moved_pair::{MovedPair, Mover},
     selection::{Kept, Selection},
     side::Side,
@@ -120,10 +120,11 @@ pub(super) fn restrict<'a>(
         }
     };
     let parties: Vec<Party> = (0..selections.len()).map(party).collect();
-    let Some(freedoms) = slip_freedoms(&parties) else {
+    let Some(directions) = directions(&parties) else {
         return;
     };
-    for (selection, freedoms) in selections.iter_mut().zip(freedoms) {
-        selection.slip_freedoms = freedoms;
+    for (selection, directions) in selections.iter_mut().zip(directions) {
+        selection.slip_freedoms = directions.slip_freedoms;
+        selection.following = directions.following;
     }
 }

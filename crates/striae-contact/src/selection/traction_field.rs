@@ -44,6 +44,8 @@ pub struct Selection {
     pub worn: [Vec<f64>; 2],
     /// In which directions friction of the kept nodes is determined; empty where it is in all.
     pub slip_freedoms: Vec<SlipFreedom>,
+    /// Kept nodes whose friction follows that of others.
+    pub following: Vec<Weak>,
     /// Faces that are taken as touching, and how much they interfere.
     pub fitted: Option<Fitted>,
     /// All of its nodes went to other pairs.
@@ -146,12 +148,21 @@ impl Selection {
                 .map(|k| self.slip_freedom(k).like(other.slip_freedom(k)))
                 .collect(),
         };
+        let nodes = |of: &Self| -> Vec<u32> { of.following.iter().map(|weak| weak.kept).collect() };
+        if nodes(self) != nodes(other) {
+            self.following.clone_from(&other.following);
+        }
         true
     }
 
     /// Weakly independent kept nodes.
     pub fn ramp(&self) -> &[Weak] {
         &self.basis.ramp
+    }
+
+    /// Nodes at which `E` acts on friction.
+    pub fn on_friction(&self) -> impl Iterator<Item = &Weak> {
+        self.ramp().iter().chain(&self.following)
     }
 
     /// Rows of `E` by place among the kept nodes.

@@ -4,7 +4,7 @@
 use striae_contact::{
     common_pivots::independent,
     configuration::Configuration,
-    directions::{Party, slip_freedoms},
+    directions::{Party, directions},
     evaluation::Evaluation,
     moved_pair::{MovedPair, Mover},
     pair_state::{PairState, Predicted, fit},
@@ -187,6 +187,7 @@ pub(super) fn reselected(setting: &Setting, trial: &Trial, contacts: &[Evaluatio
         // Directions of friction depend on the fields of all pairs.
         true => Selection {
             slip_freedoms: Vec::new(),
+            following: Vec::new(),
             ..of.clone()
         },
         false => Selection {
@@ -262,11 +263,12 @@ fn restrict<'a>(
         has_friction: has_friction(pair),
     };
     let parties: Vec<Party> = pairs.map(party).collect();
-    let Some(freedoms) = slip_freedoms(&parties) else {
+    let Some(directions) = directions(&parties) else {
         return;
     };
-    for (selection, freedoms) in selections.iter_mut().zip(freedoms) {
-        selection.slip_freedoms = freedoms;
+    for (selection, directions) in selections.iter_mut().zip(directions) {
+        selection.slip_freedoms = directions.slip_freedoms;
+        selection.following = directions.following;
     }
 }
 
