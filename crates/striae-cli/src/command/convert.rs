@@ -23,10 +23,11 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     let model = &arguments.model;
     let deck = arguments.out.clone();
     let deck = deck.unwrap_or_else(|| model.with_extension("toml"));
+    // First of all the model: the name of a deck in its place is that of the deck to be written.
+    let converted = striae_deck::convert(model, &reference(model, &deck))?;
     if deck.exists() {
         return Err(Failure::Exists(deck));
     }
-    let converted = striae_deck::convert(model, &reference(model, &deck))?;
     fs::write(&deck, &converted.deck).map_err(|cause| Failure::Unwritable {
         path: deck.clone(),
         cause,
