@@ -4,7 +4,8 @@
 //! deep inside it. Points are the nodes of the skins and the centres of their facets. Points and
 //! facets move in straight lines at a common pace, under which a body that turns by less than half
 //! a turn passes through nothing. A point has gone through a body if it comes out of its skin
-//! where the normal points against the one where it went in. Bars that cross between their points,
+//! where the normal points against the one where it went in, by a facet that has no node in common
+//! with the one there: around an edge is not through. Bars that cross between their points,
 //! edge through edge, are not seen.
 
 use std::{collections::BTreeMap, sync::OnceLock};
@@ -17,7 +18,7 @@ use super::{
     Spot, located,
     nearest::triangles,
     overlap::{PlacedSkins, Skins},
-    passage::OPPOSITE,
+    passage::{OPPOSITE, share_a_node},
     spots,
     triangle::{Way, passages},
 };
@@ -74,19 +75,21 @@ impl<'a> MovingSkins<'a> {
     }
 
     fn crossing(&self, spot: Spot, judged: impl Fn(Spot, FacetId) -> bool) -> Option<Crossing> {
-        let mut entries: BTreeMap<usize, Vec3> = BTreeMap::new();
+        let mut entries: BTreeMap<usize, (Vec3, FacetId)> = BTreeMap::new();
         for passage in self.passages(spot) {
             let body = self.skins.bodies[passage.facet.index()];
             if passage.way == Way::In {
-                entries.insert(body, passage.normal);
+                entries.insert(body, (passage.normal, passage.facet));
                 continue;
             }
             let entry = entries.remove(&body);
-            let Some(entry) = entry.or_else(|| self.entered_before(spot, body)) else {
+            let Some((normal, facet)) = entry.or_else(|| self.entered_before(spot, body)) else {
                 continue;
             };
-            let is_opposite = entry.dot(&passage.normal) < OPPOSITE;
-            if is_opposite && judged(spot, passage.facet) {
+            let surface = &self.skins.surface;
+            let facets = [facet, passage.facet].map(|facet| surface.facets()[facet.index()]);
+            let is_opposite = normal.dot(&passage.normal) < OPPOSITE;
+            if is_opposite && !share_a_node(surface, facets) && judged(spot, passage.facet) {
                 return Some(Crossing {
                     spot,
                     facet: passage.facet,
@@ -96,14 +99,15 @@ impl<'a> MovingSkins<'a> {
         None
     }
 
-    /// Normal where a point that is inside a body at the start is nearest to its skin.
-    fn entered_before(&self, spot: Spot, body: usize) -> Option<Vec3> {
+    /// Normal and facet where a point that is inside a body at the start is nearest to its skin.
+    fn entered_before(&self, spot: Spot, body: usize) -> Option<(Vec3, FacetId)> {
         let start = self
             .start
             .get_or_init(|| PlacedSkins::new(self.skins, self.x[0]));
         let of_body = |_: Spot, facet: FacetId| self.skins.bodies[facet.index()] == body;
         let found = start.overlap(spot, of_body)?;
-        start.area(found.facet).try_normalize(0.0)
+        let normal = start.area(found.facet).try_normalize(0.0)?;
+        Some((normal, found.facet))
     }
 
     /// Returns whether a point never comes nearer to the first corner of a facet than others are,

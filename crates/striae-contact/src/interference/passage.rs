@@ -4,9 +4,10 @@
 //! of a quarter of a facet of relative motion: how deep it is behind the nearest facet
 //! while it is behind one. If it ends in front again, and has come out the way it went
 //! in, the passage is one of the straight lines only; if it comes out on the other side,
-//! it has gone through the body.
+//! it has gone through the body. Facets that share a node are no two sides: what goes in at one and
+//! out at the other has gone around an edge.
 
-use striae_mesh::Vec3;
+use striae_mesh::{FacetId, Vec3};
 use striae_surface::{
     node::SurfaceNode,
     topology::{Surface, distinct_corners},
@@ -64,6 +65,7 @@ impl<'a> Skin<'a> {
 struct Passage {
     time: f64,
     way: Way,
+    facet: u32,
     normal: Vec3,
 }
 
@@ -121,22 +123,40 @@ impl<'a> Moving<'a> {
         let first = *near.first()?;
         let through = self.passages(path, &near);
         let inward = through.iter().find(|passage| passage.way == Way::In);
-        let inward = inward.map(|passage| (passage.time, passage.normal));
-        let (since, normal) = before().map(|known| (0.0, known.normal)).or(inward)?;
+        let inward = inward.map(|passage| (passage.time, passage.normal, passage.facet));
+        let before = before().map(|known| (0.0, known.normal, self.of_skin(known.facet)));
+        let (since, normal, entry) = before.or(inward)?;
         let normal = normal.normalize();
         let out = through
             .iter()
             .filter(|p| p.way == Way::Out && p.time >= since);
-        let ways: Vec<f64> = out.map(|p| p.normal.normalize().dot(&normal)).collect();
+        let ways: Vec<(f64, u32)> = out
+            .map(|p| (p.normal.normalize().dot(&normal), p.facet))
+            .collect();
         let end = self.placed(1.0).nearest(&path[1])?;
-        if ways.iter().any(|cosine| *cosine < OPPOSITE) {
+        let corners = |facet: u32| self.skin[0].surface.facets()[facet as usize];
+        let meet = |exit: u32| share_a_node(self.skin[0].surface, [corners(entry), corners(exit)]);
+        if ways
+            .iter()
+            .any(|&(cosine, exit)| cosine < OPPOSITE && !meet(exit))
+        {
             return self.of_side(end).map(Through::Body);
         }
-        if end.standing == Standing::Front && ways.iter().any(|cosine| *cosine > 0.0) {
+        if end.standing == Standing::Front && ways.iter().any(|(cosine, _)| *cosine > 0.0) {
             return None;
         }
         let deepest = self.deepest(path, since, self.steps(path, first))?;
         self.of_side(deepest).map(Through::Surface)
+    }
+
+    /// The facet of the skin that one of the side is.
+    fn of_skin(&self, facet: FacetId) -> u32 {
+        let enclosed = self.at[0].enclosed.as_ref();
+        let of_skin = enclosed.and_then(|enclosed| {
+            let mut facets = enclosed.enclosure.facets.iter();
+            facets.position(|of_side| *of_side == Some(facet))
+        });
+        of_skin.map_or(facet.0, |at| at as u32)
     }
 
     /// A point of the skin as one of the side; `None` if it belongs to another part.
@@ -156,7 +176,12 @@ impl<'a> Moving<'a> {
                 for (time, way) in passages(path, &[first, last]) {
                     let [a, b, c] = [0, 1, 2].map(|k: usize| first[k].lerp(&last[k], time));
                     let normal = (b - a).cross(&(c - a));
-                    all.push(Passage { time, way, normal });
+                    all.push(Passage {
+                        time,
+                        way,
+                        facet,
+                        normal,
+                    });
                 }
             }
         }
@@ -196,6 +221,12 @@ impl<'a> Moving<'a> {
         }
         deepest
     }
+}
+
+/// Returns whether two facets, by their corners, have a node in common.
+pub(super) fn share_a_node(surface: &Surface, facets: [[SurfaceNode; 4]; 2]) -> bool {
+    let [first, second] = facets.map(|corners| corners.map(|node| surface.nodes()[node.index()]));
+    first.iter().any(|node| second.contains(node))
 }
 
 /// The box around a facet on its way.

@@ -1,5 +1,6 @@
 //! Contact of everything: the same from Rust and from a deck, and what advice says of it.
 
+mod around_edges;
 mod beside_pairs;
 mod closed;
 
