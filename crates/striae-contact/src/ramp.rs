@@ -201,12 +201,13 @@ impl Ramp<'_> {
             });
     }
 
-    /// Memories of the weak nodes of which friction is determined in all directions: one that lacks
-    /// a direction has no ramp.
+    /// Memories of the weak nodes of which friction is determined in all directions, as one that
+    /// lacks a direction has no ramp, and of those that follow others.
     fn memories(&self, kinematics: &[Kinematics]) -> Vec<Memory<'_>> {
-        let weak = self.selection.on_friction();
-        let weak = weak
-            .filter(|weak| self.selection.slip_freedom(weak.kept as usize) == SlipFreedom::Plane);
+        let is_whole =
+            |weak: &&Weak| self.selection.slip_freedom(weak.kept as usize) == SlipFreedom::Plane;
+        let weak = self.selection.ramp().iter().filter(is_whole);
+        let weak = weak.chain(&self.selection.following);
         weak.map(|weak| {
             let Kinematics { slip, presence, .. } = &kinematics[weak.kept as usize];
             let length = FADING * self.displacement(weak);

@@ -160,11 +160,6 @@ impl Selection {
         &self.basis.ramp
     }
 
-    /// Nodes at which `E` acts on friction.
-    pub fn on_friction(&self) -> impl Iterator<Item = &Weak> {
-        self.ramp().iter().chain(&self.following)
-    }
-
     /// Rows of `E` by place among the kept nodes.
     pub fn coupling(&self) -> &[Vec<(u32, f64)>] {
         &self.basis.coupling

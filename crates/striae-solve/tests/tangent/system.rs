@@ -132,6 +132,31 @@ fn of_nodes_that_are_driven() {
     whole.assert_order();
 }
 
+/// Friction follows that of other nodes, where it is turned along and where it is remembered.
+#[test]
+fn of_nodes_whose_friction_follows() {
+    let mut model = two_blocks([2.0, 1.0], [3, 2], coulomb(5.0));
+    let mut step = step();
+    step.displacements = vec![
+        model.hold("lower", "zmin", [Some(0.0); 3]),
+        model.hold("upper", "zmax", [Some(0.02), Some(0.01), Some(-0.05)]),
+    ];
+    step.increments = increments(0.5, 1e-3);
+    model.steps = vec![step];
+    let run = Run::completed(model);
+    let [.., before, last] = &run.states[..] else {
+        panic!("no increment");
+    };
+    let context = StepContext::new(&run.problem, 0, &run.states[0]);
+    let mut whole = Whole::new(&context, before, last);
+    let at = whole.unknowns();
+    let (without, _) = whole.assembled(&at);
+    whole.let_follow();
+    let (with, _) = whole.assembled(&at);
+    assert!((with - without).amax() > 1e-6);
+    whole.assert_order();
+}
+
 /// Two blocks that are held and loaded in all ways.
 fn under_all_loads(mut model: Model) -> Model {
     let mut step = step();

@@ -4,7 +4,7 @@ use nalgebra::DVector;
 use striae_condensed::{Growth, Partition, Tangent};
 use striae_contact::{
     complementarity::Iteration, segment::Derivatives, selection::Selection, side::Side,
-    slip_freedom::SlipFreedom, unknowns::Status,
+    slip_freedom::SlipFreedom, traction_basis::Weak, unknowns::Status,
 };
 use striae_solve::{
     assembly::{
@@ -53,6 +53,25 @@ impl<'a> Whole<'a> {
     pub fn let_slip(&mut self, freedom: SlipFreedom) {
         for selection in &mut self.selections {
             selection.slip_freedoms = vec![freedom; selection.kept().len()];
+        }
+    }
+
+    /// Lets friction of every kept node but the first follow that of the one before it.
+    pub fn let_follow(&mut self) {
+        for selection in &mut self.selections {
+            let basis = &selection.basis;
+            let follow = |k: usize| {
+                let [l, k] = [k as u32 - 1, k as u32];
+                let [before, own] = [l, k].map(|k| basis.kept[k as usize].side);
+                let sign = if before == own { 1.0 } else { -1.0 };
+                Weak {
+                    kept: k,
+                    coefficient: basis.flexibility[k as usize] * basis.weights[k as usize],
+                    row: vec![(l, -1.0), (k, 1.0)],
+                    friction_row: vec![(l, -sign), (k, 1.0)],
+                }
+            };
+            selection.following = (1..basis.kept.len()).map(follow).collect();
         }
     }
 
