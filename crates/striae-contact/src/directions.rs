@@ -24,7 +24,9 @@
 //!
 //! A node that displacements hold along such a direction, past something deformable that is free
 //! there, slips by an amount that is unknown and matters: its friction follows that of its
-//! neighbours, see `directions/following.rs`.
+//! neighbours, see `directions/following.rs`. So does that of a free node whose direction other
+//! frictions take, but not one whose direction pressures take: elimination of pressures alone leaves
+//! less than 1e-4 of it, and it does not slip.
 //!
 //! Directions are components along the nodal tangents and constant in an increment.
 //!
@@ -51,7 +53,7 @@ use crate::{
     traction_basis::{KeptNode, Weak},
 };
 use following::Following;
-use gram::{Gram, Node, combination};
+use gram::{Gram, Node, Turn, combination};
 
 /// Eigenvalue from which a direction is determined, in the scale of pivots.
 const DETERMINED: f64 = 1e-4;
@@ -87,9 +89,9 @@ enum Passing {
     None,
     /// Prescribed.
     Prescribed,
-    /// The node is held, what it faces is not.
+    /// The node is held, what it faces is not; or other frictions alone take the direction.
     Open,
-    /// The node itself is free, or nobody knows.
+    /// Pressures hold the direction, or nobody knows.
     Unknown,
 }
 
@@ -111,24 +113,24 @@ pub fn directions(parties: &[Party]) -> Option<Vec<Directions>> {
         }
     }
     gram.contest(&mut nodes);
-    let mut freedoms = nodes.iter().map(Node::freedom);
+    let mut left = nodes.as_slice();
     let of_party = |(party, actions): (&Party, &Vec<Actions>)| {
-        let count = party.moved.selection.kept().len();
-        let kept: Vec<SlipFreedom> = freedoms.by_ref().take(count).collect();
-        party.directions(actions, kept)
+        let (own, others) = left.split_at(actions.len());
+        left = others;
+        party.directions(actions, own)
     };
     Some(parties.iter().zip(&actions).map(of_party).collect())
 }
 
 impl Party<'_> {
     /// Directions of friction, from those that are kept.
-    fn directions(&self, actions: &[Actions], kept: Vec<SlipFreedom>) -> Directions {
-        let mut slip_freedoms = kept;
+    fn directions(&self, actions: &[Actions], nodes: &[Node]) -> Directions {
+        let mut slip_freedoms: Vec<SlipFreedom> = nodes.iter().map(Node::freedom).collect();
         let mut following = Following::new(&self.moved, actions);
         if self.has_friction {
-            let nodes = self.moved.selection.kept().iter().zip(&mut slip_freedoms);
-            for (k, (node, freedom)) in nodes.enumerate() {
-                if let Some((now, c)) = self.passed(node, *freedom) {
+            let kept = self.moved.selection.kept().iter().zip(nodes);
+            for (k, ((kept, node), freedom)) in kept.zip(&mut slip_freedoms).enumerate() {
+                if let Some((now, c)) = self.passed(kept, node) {
                     *freedom = now;
                     c.into_iter().for_each(|c| following.add(k, c));
                 }
@@ -142,17 +144,19 @@ impl Party<'_> {
 
     /// Freedom of a node whose slip along directions that are not kept matters, and one that is
     /// unknown; `None` where it keeps its freedom.
-    fn passed(&self, kept: &KeptNode, freedom: SlipFreedom) -> Option<(SlipFreedom, Option<Vec3>)> {
+    fn passed(&self, kept: &KeptNode, node: &Node) -> Option<(SlipFreedom, Option<Vec3>)> {
+        let freedom = node.freedom();
         if freedom == SlipFreedom::Plane {
             return None;
         }
-        let (configuration, (side, node)) = (self.moved.configuration, kept.place());
-        let (contact, _) = configuration.opposite(side, node)?;
-        let frame = frame_of(configuration, side, node);
+        let (configuration, (side, own)) = (self.moved.configuration, kept.place());
+        let (contact, _) = configuration.opposite(side, own)?;
+        let frame = frame_of(configuration, side, own);
         let t = frame.t.each_ref().map(|t| t.value);
         let lost = match freedom {
             SlipFreedom::Line([q1, q2]) => vec![Vector2::new(-q2, q1)],
-            _ => self.principal(&contact.place, side, &t),
+            _ if node.contested.is_empty() => self.principal(&contact.place, side, &t),
+            _ => axes_of(node.beside_pressures),
         };
         let lost: Vec<(Vector2<f64>, Vec3)> = lost
             .into_iter()
@@ -160,7 +164,7 @@ impl Party<'_> {
             .collect();
         let passings = lost
             .iter()
-            .map(|(_, c)| self.passing(kept, &contact.place, c));
+            .map(|(q, c)| self.passing(kept, &contact.place, c, node.is_left(q)));
         let passings: Vec<Passing> = passings.collect();
         if passings.contains(&Passing::Prescribed) {
             return Some((SlipFreedom::Driven, None));
@@ -192,13 +196,21 @@ impl Party<'_> {
             .map(|(corner, weight)| movers[corner.index()].free() * weight)
             .sum();
         let free = Matrix2::from_fn(|i, j| t[i].dot(&(free * t[j])));
-        let axes = SymmetricEigen::new(free).eigenvectors;
-        vec![axes.column(0).into(), axes.column(1).into()]
+        axes_of(free)
     }
 
-    fn passing(&self, kept: &KeptNode, place: &Place, c: &Vec3) -> Passing {
+    fn passing(&self, kept: &KeptNode, place: &Place, c: &Vec3, is_left: bool) -> Passing {
         let (configuration, (side, node)) = (self.moved.configuration, kept.place());
-        let Some(own) = self.moved.movers[side][node].imposed(c) else {
+        let open = match configuration.pair.enforcement {
+            Enforcement::Weighted => Passing::Open,
+            Enforcement::Collocated => Passing::Unknown,
+        };
+        let mover = &self.moved.movers[side][node];
+        if mover.is_free(c) {
+            // Other frictions have taken the direction. What pressures hold does not slip.
+            return if is_left { open } else { Passing::Unknown };
+        }
+        let Some(own) = mover.imposed(c) else {
             return Passing::Unknown;
         };
         let round_off = ROUND_OFF * configuration.size(side, node);
@@ -207,8 +219,7 @@ impl Party<'_> {
             Some(_) => Passing::None,
             // A rigid body has no positions of its own that an interpolation could go by.
             None if configuration.pair.is_rigid() => Passing::Unknown,
-            None if configuration.pair.enforcement == Enforcement::Collocated => Passing::Unknown,
-            None => Passing::Open,
+            None => open,
         }
     }
 
@@ -232,6 +243,12 @@ impl Party<'_> {
         let (weight, sum) = known.fold((0.0, 0.0), |sum, of| (sum.0 + of.0, sum.1 + of.1));
         (weight > MOSTLY).then(|| sum / weight)
     }
+}
+
+/// Eigenvectors of a symmetric matrix.
+fn axes_of(matrix: Matrix2<f64>) -> Vec<Vector2<f64>> {
+    let axes = SymmetricEigen::new(matrix).eigenvectors;
+    axes.column_iter().map(Into::into).collect()
 }
 
 /// Numbers of movers that displacements hold in part or that several pairs or faces move, and
@@ -271,9 +288,10 @@ impl Node {
             is_closed,
             kept: Vec::new(),
             contested: Vec::new(),
+            beside_pressures: Matrix2::zeros(),
         };
         if node.is_closed {
-            gram.push(actions.column(0), true);
+            gram.push(actions.column(0), Turn::Pressure);
         }
         let tangents = [actions.column(1), actions.column(2)];
         let disturbs = actions
@@ -290,7 +308,7 @@ impl Node {
             if node.is_closed && has_friction {
                 tangents
                     .into_iter()
-                    .for_each(|tangent| gram.push(tangent, true));
+                    .for_each(|tangent| gram.push(tangent, Turn::Undisturbed));
             }
             return node;
         }
@@ -311,11 +329,11 @@ impl Node {
             if *value >= UNDISTURBED * undisturbed && !is_shared {
                 node.kept.push(direction);
                 if node.is_closed {
-                    gram.push(column(), true);
+                    gram.push(column(), Turn::Undisturbed);
                 }
             } else if *value >= DETERMINED {
                 node.contested.push((direction, gram.columns.len() as u32));
-                gram.push(column(), false);
+                gram.push(column(), Turn::Contested);
             }
         }
         node

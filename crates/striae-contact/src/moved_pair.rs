@@ -52,8 +52,12 @@ impl Mover {
     /// Motion along a unit vector; `None` unless it is prescribed.
     pub(crate) fn imposed(&self, c: &Vec3) -> Option<f64> {
         let motion = self.motion?;
-        let is_held = (self.free() * c).norm_squared() < MOSTLY;
-        is_held.then(|| motion.dot(c))
+        (!self.is_free(c)).then(|| motion.dot(c))
+    }
+
+    /// Returns whether displacements leave most of the direction of a unit vector.
+    pub(crate) fn is_free(&self, c: &Vec3) -> bool {
+        (self.free() * c).norm_squared() >= MOSTLY
     }
 
     /// Returns whether nothing moves it but displacements.

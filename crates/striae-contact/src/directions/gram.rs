@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use nalgebra::{DMatrix, DVector, SymmetricEigen, Vector2};
+use nalgebra::{DMatrix, DVector, Matrix2, SymmetricEigen, Vector2};
 use striae_mesh::Vec3;
 
 use super::DETERMINED;
@@ -28,6 +28,9 @@ pub(super) struct Node {
     pub(super) kept: Vec<Vector2<f64>>,
     /// Directions that are contested, and their columns.
     pub(super) contested: Vec<(Vector2<f64>, u32)>,
+    /// Products of the contested directions, along the tangents, after elimination of pressures
+    /// alone.
+    pub(super) beside_pressures: Matrix2<f64>,
 }
 
 impl Node {
@@ -39,6 +42,32 @@ impl Node {
             _ => SlipFreedom::Plane,
         }
     }
+
+    /// Returns whether pressures leave a direction along the tangents that was contested.
+    pub(super) fn is_left(&self, direction: &Vector2<f64>) -> bool {
+        direction.dot(&(self.beside_pressures * direction)) >= DETERMINED
+    }
+
+    /// Fills in what pressures leave, by the products of all contested columns.
+    fn look(&mut self, products: &DMatrix<f64>, place: &BTreeMap<u32, usize>) {
+        for (a, at_a) in &self.contested {
+            for (b, at_b) in &self.contested {
+                let product = products[(place[at_a], place[at_b])];
+                self.beside_pressures += a * b.transpose() * product;
+            }
+        }
+    }
+}
+
+/// Turn of a column in the contest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Turn {
+    /// Pressure of a closed node: eliminated before all others.
+    Pressure,
+    /// Friction that nothing disturbs: eliminated next.
+    Undisturbed,
+    /// Friction that is contested.
+    Contested,
 }
 
 /// Sum of the columns of both tangents along a direction.
@@ -56,14 +85,13 @@ pub(super) fn combination(columns: &[Column; 2], by: &Vector2<f64>) -> Column {
 #[derive(Default)]
 pub(super) struct Gram {
     pub(super) columns: Vec<Column>,
-    /// Columns that are eliminated before the contest.
-    first: Vec<bool>,
+    turns: Vec<Turn>,
 }
 
 impl Gram {
-    pub(super) fn push(&mut self, column: Column, first: bool) {
+    pub(super) fn push(&mut self, column: Column, turn: Turn) {
         self.columns.push(column);
-        self.first.push(first);
+        self.turns.push(turn);
     }
 
     /// Decides which contested directions are kept.
@@ -75,8 +103,11 @@ impl Gram {
         if contested.is_empty() {
             return;
         }
-        let mut remainder = self.remainder(&contested);
+        let [beside_pressures, mut remainder] = self.remainders(&contested);
         let place: BTreeMap<u32, usize> = contested.iter().copied().zip(0..).collect();
+        nodes
+            .iter_mut()
+            .for_each(|node| node.look(&beside_pressures, &place));
         for closed in [true, false] {
             let of_part = |node: &&mut Node| node.is_closed == closed && !node.contested.is_empty();
             let mut left: Vec<&mut Node> = nodes.iter_mut().filter(of_part).collect();
@@ -94,14 +125,15 @@ impl Gram {
         }
     }
 
-    /// Products of the contested columns after elimination of the first ones near them.
-    fn remainder(&self, contested: &[u32]) -> DMatrix<f64> {
+    /// Products of the contested columns after elimination of the pressures near them, and of
+    /// undisturbed friction, too.
+    fn remainders(&self, contested: &[u32]) -> [DMatrix<f64>; 2] {
         let mut users: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
         for (at, column) in self
             .columns
             .iter()
             .enumerate()
-            .filter(|(at, _)| self.first[*at])
+            .filter(|(at, _)| self.turns[*at] != Turn::Contested)
         {
             for number in column.keys() {
                 users.entry(*number).or_default().push(at as u32);
@@ -122,7 +154,9 @@ impl Gram {
             near.extend(found.iter().copied());
             rim = found.into_iter().collect();
         }
-        let near: Vec<u32> = near.into_iter().collect();
+        let mut near: Vec<u32> = near.into_iter().collect();
+        near.sort_by_key(|&at| (self.turns[at as usize], at));
+        let pressures = near.partition_point(|&at| self.turns[at as usize] == Turn::Pressure);
         let between = |rows: &[u32], columns: &[u32]| {
             DMatrix::from_fn(rows.len(), columns.len(), |i, j| {
                 self.product(rows[i], columns[j])
@@ -138,9 +172,13 @@ impl Gram {
                     .l_dirty()
                     .solve_lower_triangular(&between(&near, contested))
                     .unwrap_or_else(|| DMatrix::zeros(near.len(), contested.len()));
-                own - solved.tr_mul(&solved)
+                let of_pressures = solved.rows_range(..pressures);
+                let others = solved.rows_range(pressures..);
+                let beside_pressures = own - of_pressures.tr_mul(&of_pressures);
+                let remainder = &beside_pressures - others.tr_mul(&others);
+                [beside_pressures, remainder]
             }
-            Some(_) | None => own,
+            Some(_) | None => [own.clone(), own],
         }
     }
 

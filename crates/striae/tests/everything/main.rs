@@ -3,6 +3,7 @@
 mod around_edges;
 mod beside_pairs;
 mod closed;
+mod shared_edges;
 
 use std::path::Path;
 
