@@ -3,7 +3,7 @@
 //! A force that is none where the claim is one above zero is contact that was missed: it is
 //! noted as `contact`.
 
-use std::path::Path;
+use std::{f64::consts::FRAC_1_SQRT_2, path::Path};
 
 use crate::scenes::{
     claim::{Claim, Quantity},
@@ -209,7 +209,10 @@ fn on_body(
     history.vector(row, &format!("pair.{name}.resultant_{letter}"))
 }
 
-/// Normals of the nodes, weighted with pressure and area.
+/// Mean normal of the face that bears most, weighted with pressure and area.
+///
+/// In contact of everything a flank takes part with slivers of its facets, which weigh far less than
+/// the area about its nodes. Normals at more than 45 degrees from the first mean are of such faces.
 fn mean_normal(grid: &Grid) -> Option<Vector> {
     let (pressure, normals) = (grid.scalars("pressure")?, grid.vectors("normal")?);
     let mut areas = vec![0.0; grid.points.len()];
@@ -219,7 +222,13 @@ fn mean_normal(grid: &Grid) -> Option<Vector> {
             areas[node] += share;
         }
     }
-    let weighted = (0..areas.len()).map(|i| times(areas[i] * pressure[i], normals[i]));
-    let sum = weighted.fold([0.0; 3], plus);
-    (length(sum) > 0.0).then(|| unit(sum))
+    let mean = |near: &dyn Fn(Vector) -> bool| {
+        let nodes = (0..areas.len()).filter(|&i| near(normals[i]));
+        let sum = nodes
+            .map(|i| times(areas[i] * pressure[i], normals[i]))
+            .fold([0.0; 3], plus);
+        (length(sum) > 0.0).then(|| unit(sum))
+    };
+    let first = mean(&|_| true)?;
+    mean(&|normal| dot(normal, first) > FRAC_1_SQRT_2)
 }
