@@ -215,7 +215,7 @@ impl Integrate<'_> {
             add(&mut self.sums.by_pressure[k], of_closed, &n);
         }
         on.add_value(weight, &integrand);
-        if point.pressure > 0.0 {
+        if point.is_pressed() {
             self.sums.area += whole;
         }
         if !self.with_slopes {

@@ -123,7 +123,7 @@ impl Pressed {
         let gap = pressing.gap(&functions);
         let at = Point::new(pressing, &functions, gap);
         let area = share * jacobian;
-        if at.pressure > 0.0 {
+        if at.is_pressed() {
             self.area += area;
         }
         // A value at the point, and its derivative by the gap there.

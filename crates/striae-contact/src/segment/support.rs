@@ -8,6 +8,9 @@ use super::{
     sums::add,
 };
 
+/// Sum of the shares of closed nodes at a point that is round-off: their support ends there.
+const NO_SHARE: f64 = 1e-9;
+
 /// The support of a kept node on a segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Support {
@@ -201,6 +204,8 @@ pub(super) fn dot(a: &[f64; 8], b: &[f64; 8]) -> f64 {
 pub(super) struct Point {
     /// `P`.
     pub pressure: f64,
+    /// `sum phi_k` over the closed nodes.
+    closed: f64,
     /// `sum phi_k r_k` over the closed nodes.
     pub stiffness: f64,
     /// `sum_k share_kd P_k`, of which the gradient of `P` at constant gap is made.
@@ -213,6 +218,7 @@ impl Point {
     pub(super) fn new(pressing: &Pressing, n: &[f64; 8], gap: f64) -> Self {
         let mut point = Self {
             pressure: 0.0,
+            closed: 0.0,
             stiffness: 0.0,
             by_shares: [0.0; 8],
         };
@@ -221,11 +227,17 @@ impl Point {
                 let phi = dot(&support.shares, n);
                 let own = support.pressure - support.bedding * gap;
                 point.pressure += phi * own;
+                point.closed += phi;
                 point.stiffness += phi * support.bedding;
                 add(&mut point.by_shares, own, &support.shares);
             }
         }
         point
+    }
+
+    /// Returns whether the point is under pressure, of more than nodes whose support ends there.
+    pub(super) fn is_pressed(&self) -> bool {
+        self.closed > NO_SHARE && self.pressure > 0.0
     }
 }
 
