@@ -488,3 +488,22 @@ def test_arrays_of_any_layout_are_understood() -> None:
         mesh = st.Mesh(points, {"hexahedron": small})
         assert np.array_equal(mesh.points, expected.points)
         assert np.array_equal(mesh.cells["hexahedron"], expected.cells["hexahedron"])
+
+
+def test_parts_do_not_change_once_they_are_made(rubber: st.NeoHookean) -> None:
+    law = st.Coulomb(0.3)
+    body = st.Body("pad", st.block(), rubber)
+    made: list[tuple[object, str]] = [
+        (law, "mu"),
+        (law.with_shear_cap(10.0), "mu"),
+        (rubber, "youngs_modulus"),
+        (body, "density"),
+        (st.Plane("floor"), "point"),
+        (st.Pair(body["zmin"], st.Plane("floor"), law), "friction"),
+        (st.Model([body]), "solver"),
+    ]
+    for part, attribute in made:
+        with pytest.raises(TypeError, match=f"{attribute} of an? .* cannot be assigned"):
+            setattr(part, attribute, 1.0)
+    body.add_set("low", lambda x: x[:, 2] < 0.1)
+    assert "low" in body.mesh.node_sets

@@ -260,7 +260,7 @@ class Body(Strict):
         chosen = with_nodes.node_sets[name]
         if not len(chosen):
             raise refuse(f"body `{self.name}`", f"no node is in set `{name}`")
-        self.mesh = with_nodes.with_sets(facets={name: chosen})
+        self._replace("mesh", with_nodes.with_sets(facets={name: chosen}))
         return BodySet(self, name)
 
     def add_elements(self, name: str, members: Members) -> None:
@@ -274,7 +274,7 @@ class Body(Strict):
         with_elements = self.mesh.with_sets(elements={name: members})
         if not len(with_elements.element_sets[name]):
             raise refuse(f"body `{self.name}`", f"no element is in set `{name}`")
-        self.mesh = with_elements
+        self._replace("mesh", with_elements)
 
     def velocity(
         self,

@@ -62,6 +62,7 @@ class Friction(Dependences):
     ) -> Friction:
         law: Friction = cls.__new__(cls)
         law._native, law._told, law._recipe = found, told, recipe
+        law._is_finished = True
         return law
 
     def bound(

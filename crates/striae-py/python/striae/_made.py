@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import inspect
 from collections.abc import Callable, Mapping
 from typing import Any, Optional, TypeAlias
@@ -13,11 +14,46 @@ Recipe: TypeAlias = tuple[Callable[..., Any], tuple[Any, ...], dict[str, Any]]
 
 
 class Strict:
-    """Base of classes that name their arguments, and counterparts of keys of decks, when refusing."""
+    """Base of classes that name their arguments, and counterparts of keys of decks, when refusing.
+
+    Their objects do not change from outside once they are made.
+    """
+
+    _is_finished = False
+
+    def __init_subclass__(cls) -> None:
+        super().__init_subclass__()
+        if "__init__" in vars(cls):
+            setattr(cls, "__init__", _finishing(vars(cls)["__init__"]))
 
     def __new__(cls, *arguments: Any, **named: Any) -> Any:
         unknown(cls, named)
         return super().__new__(cls)
+
+    def __setattr__(self, attribute: str, value: Any) -> None:
+        # What a model was built from has been copied: an assignment would have no effect on it.
+        if self._is_finished and not attribute.startswith("_"):
+            kind = type(self).__name__
+            raise TypeError(
+                f"{attribute} of a {kind} cannot be assigned: a {kind} does not change once it is"
+                " made; make another one with other arguments"
+            )
+        super().__setattr__(attribute, value)
+
+    def _replace(self, attribute: str, value: Any) -> None:
+        object.__setattr__(self, attribute, value)
+
+
+def _finishing(initialise: Callable[..., None]) -> Callable[..., None]:
+    """The initialiser of a class, after which its objects are finished, but not those of others."""
+
+    @functools.wraps(initialise)
+    def finishing(self: Strict, *arguments: Any, **named: Any) -> None:
+        initialise(self, *arguments, **named)
+        if getattr(type(self), "__init__") is finishing:
+            self._is_finished = True
+
+    return finishing
 
 
 class Made(Strict):
