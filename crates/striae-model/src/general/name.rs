@@ -83,7 +83,15 @@ impl<'a> Names<'a> {
         match sets.find(|(_, members)| *members == faces) {
             Some((set, _)) => format!("{}.{set}", draft.name),
             None => free(&format!("{}.rest", draft.name), |name| {
-                self.sides.values().any(|taken| taken == name)
+                let set = name
+                    .strip_prefix(draft.name)
+                    .and_then(|set| set.strip_prefix('.'));
+                let mut sets = draft
+                    .mesh
+                    .into_iter()
+                    .flat_map(|mesh| mesh.facet_sets.names());
+                sets.any(|known| Some(known) == set)
+                    || self.sides.values().any(|taken| taken == name)
             }),
         }
     }
