@@ -332,6 +332,35 @@ texture = { uniform = [0, 1, 0] }
     assert_each_once(&model, all_couples(&model));
 }
 
+/// A statement of two surfaces keeps their textures, which the law of a later step needs.
+#[test]
+fn textures_stay_for_laws_of_later_steps() {
+    let text = |of: &str| {
+        format!(
+            r#"
+friction = [{{ pair = "tread.zmin-road", law = "orthotropic", mu_along = 0.1, mu_across = 0.4 }}]
+[contact]
+all = true
+[[contact.between]]
+a = "tread.zmin"
+b = "road"
+friction = {{ law = "coulomb", mu = 0.3 }}
+[[contact.surface]]
+of = "{of}"
+texture = {{ uniform = [0, 1, 0] }}
+"#
+        )
+    };
+    let model = model(&text("tread.zmin"));
+    let textures = &pair(&model, "tread.zmin-road").textures;
+    assert!(matches!(textures, [Some(Paint::Field(_)), None]));
+    let found = faults(&text("carcass"));
+    assert!(
+        found[0].contains("in contact of everything, `[[contact.surface]]` must do so"),
+        "{found:?}"
+    );
+}
+
 #[test]
 fn steps_change_friction_by_the_names_of_labels() {
     let changed = r#"

@@ -793,7 +793,9 @@ fn it_has(known: &[String]) -> String {
 fn texturing(found: usize) -> &'static str {
     match found {
         2 => "leave one of them out",
-        _ => "give a side its direction, such as `texture = { uniform = [1, 0, 0] }`",
+        _ => {
+            "give a side its direction, such as `texture = { uniform = [1, 0, 0] }`; in contact of everything, `[[contact.surface]]` must do so for all facets of the pair, to which `[[contact.between]]` may restrict the law"
+        }
     }
 }
 

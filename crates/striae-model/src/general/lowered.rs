@@ -108,7 +108,9 @@ impl Everything {
 /// owners, by statement.
 type Law = (Origin, [Option<usize>; 2]);
 /// Couples by owners and law.
-type Groups = BTreeMap<(Owner, Owner), BTreeMap<Law, BTreeSet<Couple>>>;
+type Groups = BTreeMap<(Owner, Owner), Laws>;
+/// Couples of two owners by law.
+type Laws = BTreeMap<Law, BTreeSet<Couple>>;
 
 impl Scene<'_> {
     /// Pairs for all couples, with the faults of statements that contradict each other or say
@@ -133,13 +135,14 @@ impl Scene<'_> {
             };
             let owners = (self.atoms[couple.0].owner, self.atoms[couple.1].owner);
             let mut painted = [couple.0, couple.1].map(|atom| textures[atom]);
-            if !all.needs_textures(origin) {
-                painted = [None, None];
-            } else if owners.0 == owners.1 {
+            if owners.0 == owners.1 {
                 painted.sort_unstable();
             }
             let laws = groups.entry(owners).or_default();
             laws.entry((origin, painted)).or_default().insert(couple);
+        }
+        for laws in groups.values_mut() {
+            all.leave_out_textures(laws);
         }
         faults.extend(undecided.into_values().map(|found| self.both_name(found)));
         for (at, rule) in self.rules.iter().enumerate() {
@@ -156,11 +159,11 @@ impl Scene<'_> {
         let mut lowered = Lowered::default();
         for (owners, laws) in groups {
             let own = owners.0 == owners.1;
-            let found = laws.iter().flat_map(|((origin, _), couples)| {
+            let found = laws.iter().flat_map(|((origin, painted), couples)| {
                 let products = products(couples).into_iter();
-                products.map(move |product| (*origin, product))
+                products.map(move |product| (*origin, *painted != [None, None], product))
             });
-            for (origin, product) in found {
+            for (origin, has_textures, product) in found {
                 let (a, b) = match &product {
                     Product::Itself(of) => (of, of),
                     Product::Sides(a, b) if self.atoms[a[0]].owner <= self.atoms[b[0]].owner => {
@@ -168,9 +171,8 @@ impl Scene<'_> {
                     }
                     Product::Sides(a, b) => (b, a),
                 };
-                let needed = all.needs_textures(origin);
                 let paint = |side: &[usize]| {
-                    let texture = textures[side[0]].filter(|_| needed)?;
+                    let texture = textures[side[0]].filter(|_| has_textures)?;
                     Some(self.paint(side, texture))
                 };
                 lowered.origins.push(origin);
@@ -206,6 +208,25 @@ impl Everything {
         match origin {
             Origin::All => &self.friction,
             Origin::Between(at) => &self.between[at].2,
+        }
+    }
+
+    /// Leaves out textures that no law needs at the start. Of couples whose law has a statement of
+    /// its own they stay for laws of later steps, unless they would divide the pair.
+    fn leave_out_textures(&self, laws: &mut Laws) {
+        let is_divided = |of: Origin| laws.keys().filter(|(origin, _)| *origin == of).count() > 1;
+        let without: BTreeSet<Origin> = laws
+            .keys()
+            .map(|(origin, _)| *origin)
+            .filter(|&origin| !self.needs_textures(origin))
+            .filter(|&origin| origin == Origin::All || is_divided(origin))
+            .collect();
+        for ((origin, painted), couples) in std::mem::take(laws) {
+            let painted = match without.contains(&origin) {
+                true => [None, None],
+                false => painted,
+            };
+            laws.entry((origin, painted)).or_default().extend(couples);
         }
     }
 
