@@ -402,7 +402,9 @@ table! {
         /// by increment: the order of turns about several axes counts. Default: they stay free or
         /// unchanged.
         optional rotation: [Number; 3],
-        /// Coordinates that are free from now on and follow the forces; they have no target.
+        /// Coordinates that are free, until a later step gives them a target again, and follow the
+        /// forces; they have no target. A `displacement` gives all directions a target that are not
+        /// listed here.
         optional free: Vec<At<Coordinate>>,
         /// Target of the force that drives free coordinates, at the reference point.
         optional force: [Number; 3],

@@ -167,12 +167,16 @@ fn waves(body: &Body, step: &Step, advice: &mut Advice) {
     }
 }
 
-/// Forces and torques on coordinates of rigid bodies that are not free.
+/// Forces and torques on coordinates of rigid bodies that are not free, of the same step or of an
+/// earlier one, whose loads go on.
 fn held(model: &Model, advice: &mut Advice) {
     let mut free = vec![[false; 6]; model.rigid_surfaces.len()];
+    let mut loads = vec![[0.0; 6]; model.rigid_surfaces.len()];
     for step in &model.steps {
         for motion in &step.rigid_motions {
-            let free = &mut free[motion.surface.0];
+            let at = motion.surface.0;
+            let (free, loads) = (&mut free[at], &mut loads[at]);
+            let was_free = *free;
             for (coordinate, free) in motion.coordinates.iter().zip(free.iter_mut()) {
                 match coordinate {
                     Freedom::Free => *free = true,
@@ -180,21 +184,28 @@ fn held(model: &Model, advice: &mut Advice) {
                     Freedom::AsBefore => {}
                 }
             }
-            let idle: Vec<&str> = (0..6)
-                .filter(|&at| !free[at] && driving(motion, at) != 0.0)
-                .map(|at| COORDINATES[at])
-                .collect();
-            if !idle.is_empty() {
-                let name = &model.rigid_surfaces[motion.surface.0].name;
-                let listed: Vec<String> = idle.iter().map(|word| format!("\"{word}\"")).collect();
+            let stated = drive(motion, loads);
+            let is_idle = |at: &usize| !free[*at] && loads[*at] != 0.0;
+            let name = &model.rigid_surfaces[at].name;
+            let idle = (0..6).filter(is_idle).filter(|at| stated[*at]);
+            if let Some([along, remedy]) = listed(idle) {
                 advice.warn(
                     Topic::Hold,
                     name,
                     format!(
-                        "step `{}` drives `{name}` along {}, where it is held, so this has no effect; add `free = [{}]`",
-                        step.name,
-                        idle.join(" and "),
-                        listed.join(", ")
+                        "step `{}` drives `{name}` along {along}, where it is held, so this has no effect; add `free = [{remedy}]`",
+                        step.name
+                    ),
+                );
+            }
+            let idle = (0..6).filter(is_idle).filter(|at| !stated[*at]);
+            if let Some([along, remedy]) = listed(idle.filter(|at| was_free[*at])) {
+                advice.warn(
+                    Topic::Hold,
+                    name,
+                    format!(
+                        "step `{}` holds `{name}` along {along}, where the load of an earlier step goes on and now has no effect; add `free = [{remedy}]`, or end the load with `force` or `torque`",
+                        step.name
                     ),
                 );
             }
@@ -202,11 +213,20 @@ fn held(model: &Model, advice: &mut Advice) {
     }
 }
 
-/// Force or torque along a coordinate.
-fn driving(motion: &RigidMotion, coordinate: usize) -> f64 {
-    let of = match coordinate {
-        0..3 => motion.force,
-        _ => motion.torque,
-    };
-    of.map_or(0.0, |of| of[coordinate % 3])
+/// Coordinates in a sentence and in a list of a deck; `None` if there are none.
+fn listed(coordinates: impl Iterator<Item = usize>) -> Option<[String; 2]> {
+    let words: Vec<&str> = coordinates.map(|at| COORDINATES[at]).collect();
+    let quoted: Vec<String> = words.iter().map(|word| format!("\"{word}\"")).collect();
+    (!words.is_empty()).then(|| [words.join(" and "), quoted.join(", ")])
+}
+
+/// Sets the loads that a step states, and returns on which coordinates it states one.
+fn drive(motion: &RigidMotion, loads: &mut [f64; 6]) -> [bool; 6] {
+    let stated = [motion.force, motion.torque];
+    for (loads, stated) in loads.chunks_mut(3).zip(stated) {
+        if let Some(stated) = stated {
+            loads.copy_from_slice(stated.as_slice());
+        }
+    }
+    std::array::from_fn(|at| stated[at / 3].is_some())
 }

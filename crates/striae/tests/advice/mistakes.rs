@@ -477,8 +477,22 @@ fn forces_on_what_is_held() {
         Topic::Hold,
         "drives `floor` along x, where it is held, so this has no effect; add `free = [\"x\"]`",
     );
-    let free = advice(&[[PRESSED, &driven(", free = [\"x\"]")]]);
-    assert_eq!(free.warnings, []);
+    let free = driven(", free = [\"x\"]");
+    assert_eq!(advice(&[[PRESSED, &free]]).warnings, []);
+    let then = |more: &str| {
+        format!(
+            "{free}\n[[step]]\nname = \"draw\"\nrigid = [{{ surface = \"floor\", displacement = [0, 0.1, 0]{more} }}]"
+        )
+    };
+    assert_warned(
+        &[[PRESSED, &then("")]],
+        Topic::Hold,
+        "step `draw` holds `floor` along x, where the load of an earlier step goes on and now has no effect; add `free = [\"x\"]`, or end the load",
+    );
+    for more in [", free = [\"x\"]", ", force = [0, 0, 0]"] {
+        let advice = advice(&[[PRESSED, &then(more)]]);
+        assert_eq!(advice.warnings, [], "{more}");
+    }
 }
 
 #[test]
