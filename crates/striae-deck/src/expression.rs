@@ -71,7 +71,7 @@ mod tests {
             ("nu", "no `nu`"),
             (
                 "sine(1)",
-                "unknown function `sine` of 1 numbers; known functions are `sqrt`",
+                "unknown function `sine` of one number; known functions are `sqrt`",
             ),
             ("sqrt(1, 2)", "unknown function `sqrt` of 2 numbers"),
             ("1/0", "division by zero"),

@@ -375,7 +375,7 @@ all = true
     assert_eq!(
         faults(&changed.replace("tread-road", "tread-raod")),
         [
-            "no pair is named `tread-raod`; there is `carcass-carcass`, `carcass-road`, `tread-carcass`, `tread-road`, `tread-tread`; did you mean `tread-road`?"
+            "no pair is named `tread-raod`; there are `carcass-carcass`, `carcass-road`, `tread-carcass`, `tread-road`, `tread-tread`; did you mean `tread-road`?"
         ]
     );
 }
@@ -463,7 +463,7 @@ fn statements_about_nothing_are_named() {
     assert_eq!(
         excluded("{ a = \"raod\" }"),
         [
-            "no body or rigid surface is named `raod`; there is `carcass`, `road`, `tread`; did you mean `road`?"
+            "no body or rigid surface is named `raod`; there are `carcass`, `road`, `tread`; did you mean `road`?"
         ]
     );
     assert_eq!(

@@ -407,7 +407,7 @@ material = "ruber""#,
     misstated(
         "unknown body",
         &[(r#"a = { body = "lower""#, r#"a = { body = "lowr""#)],
-        &["20:14: no body is named `lowr`; there is `lower`, `upper`; did you mean `lower`?"],
+        &["20:14: no body is named `lowr`; there are `lower`, `upper`; did you mean `lower`?"],
     );
     misstated(
         "unknown rigid surface",
@@ -426,7 +426,7 @@ material = "ruber""#,
         "unknown curve",
         &[(r#"curve = "there-and-back""#, r#"curve = "there-and-bak""#)],
         &[
-            "32:56: no curve is named `there-and-bak`; there is `ramp`, `constant`, `smooth`, `there-and-back`; did you mean `there-and-back`?",
+            "32:56: no curve is named `there-and-bak`; there are `ramp`, `constant`, `smooth`, `there-and-back`; did you mean `there-and-back`?",
         ],
     );
     misstated(

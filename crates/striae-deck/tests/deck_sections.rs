@@ -136,7 +136,7 @@ fn faults_of_sections_are_named_where_they_are() {
         (
             "no such material",
             r#"{ elements = "left", material = "gun" }"#,
-            "deck.toml:27:45: no material is named `gun`; there is `gum`, `steel`; did you mean `gum`?",
+            "deck.toml:27:45: no material is named `gun`; there are `gum`, `steel`; did you mean `gum`?",
         ),
     ] {
         let body = format!("material = \"steel\"\nsections = [{sections}]");

@@ -206,9 +206,10 @@ impl MeshFileFault {
 
 fn node_data(name: &Option<String>, known: &[String]) -> String {
     let named: Vec<String> = known.iter().map(|name| format!("`{name}`")).collect();
-    let known = match known.len() {
+    let known = match named.len() {
         0 => "there is none".to_owned(),
-        _ => format!("there is {}", named.join(", ")),
+        1 => format!("there is {}", named[0]),
+        _ => format!("there are {}", named.join(", ")),
     };
     match name {
         Some(name) => format!("expected node data `{name}` once; {known}"),

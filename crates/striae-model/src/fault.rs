@@ -775,10 +775,10 @@ fn quoted(words: &[String]) -> String {
 }
 
 fn existing(known: &[String]) -> String {
-    if known.is_empty() {
-        "there is none".into()
-    } else {
-        format!("there is {}", quoted(known))
+    match known {
+        [] => "there is none".into(),
+        [one] => format!("there is `{one}`"),
+        several => format!("there are {}", quoted(several)),
     }
 }
 

@@ -187,9 +187,11 @@ impl<'t> Reader<'t, '_> {
                 .map(|name| format!("`{name}`"))
                 .collect();
             let known = known.join(", ");
-            let cause = format!(
-                "unknown function `{name}` of {arguments} numbers; known functions are {known}"
-            );
+            let of = match arguments {
+                1 => "one number".to_owned(),
+                several => format!("{several} numbers"),
+            };
+            let cause = format!("unknown function `{name}` of {of}; known functions are {known}");
             (at, cause)
         })?;
         self.operations.push(Operation::Call(function));
