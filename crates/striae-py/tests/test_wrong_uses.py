@@ -507,3 +507,11 @@ def test_parts_do_not_change_once_they_are_made(rubber: st.NeoHookean) -> None:
             setattr(part, attribute, 1.0)
     body.add_set("low", lambda x: x[:, 2] < 0.1)
     assert "low" in body.mesh.node_sets
+
+
+def test_deformation_gradients_have_three_rows(rubber: st.NeoHookean) -> None:
+    for shape in [(2, 2), (4, 3), (3,)]:
+        gradient = np.ones(shape)
+        for evaluate in (rubber.stress, rubber.energy):
+            with pytest.raises(st.ModelError, match=r"an array of shape \(3, 3\) is needed"):
+                evaluate(gradient)

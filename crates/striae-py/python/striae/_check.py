@@ -100,6 +100,14 @@ def rows(value: Any, path: str) -> Floats:
     return finite(found, path)
 
 
+def tensor(value: Any, path: str) -> Floats:
+    """An array of shape (3, 3)."""
+    found = array(value, path)
+    if found.shape != (3, 3):
+        raise refuse(path, f"an array of shape (3, 3) is needed, but it has shape {found.shape}")
+    return finite(found, path)
+
+
 def indices(value: Any, columns: int, path: str) -> Ints:
     """An array of integers of shape (n, columns)."""
     found = integers(value, path)

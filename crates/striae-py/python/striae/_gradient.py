@@ -33,7 +33,7 @@ def differentiate(
     the target of a curve, an angle of texture, a dimension of a mesh, as long as meshes keep
     their elements. Derivatives are those of the discrete equations, by one correction with the
     converged tangent in each increment, so they cost a fraction of a run each; their errors
-    are about 1e-8 of them. A warning names contact nodes just between stick and slip, or open
+    are about 1e-8 of the size of the result over that of the parameter. A warning names contact nodes just between stick and slip, or open
     and closed, at which derivatives are one-sided.
 
     model_of: a function that makes the model: ``model_of(mu=0.3)``.

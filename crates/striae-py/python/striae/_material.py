@@ -35,7 +35,7 @@ class Material(Made):
 
         deformation_gradient: of shape (3, 3) (no unit).
         """
-        rows = check.rows(deformation_gradient, "deformation_gradient").tolist()
+        rows = check.tensor(deformation_gradient, "deformation_gradient").tolist()
         return np.array(self._native.response(rows)[1])
 
     def energy(self, deformation_gradient: Union[Sequence[Sequence[float]], Floats]) -> float:
@@ -43,7 +43,7 @@ class Material(Made):
 
         deformation_gradient: of shape (3, 3) (no unit).
         """
-        rows = check.rows(deformation_gradient, "deformation_gradient").tolist()
+        rows = check.tensor(deformation_gradient, "deformation_gradient").tolist()
         return self._native.response(rows)[0]
 
     def _make(self, law: str, values: Values) -> None:

@@ -54,7 +54,8 @@ class Energies(NamedTuple):
     friction: float
     """Work dissipated by friction (force times length)."""
     contact: float
-    """Work of contact forces beyond friction (force times length)."""
+    """Work of contact forces beyond friction, with the error of finite increments in which surfaces
+    open or close (force times length)."""
     stabilisation: float
     """Work lost to stabilisation (force times length)."""
     numerical: float
@@ -115,7 +116,10 @@ class BodyResults:
     @cached_property
     def equivalent_plastic_strain(self) -> Floats:
         """Equivalent plastic strain of the elements, of shape (cells,), in the order of
-        :attr:`Mesh.cells`; zero in elements that do not yield (no unit)."""
+        :attr:`Mesh.cells`; zero in elements that do not yield (no unit).
+
+        Raises ``AttributeError`` if no material of the body can yield.
+        """
         found = self._results.remembered(self.name, "equivalent_plastic_strain")
         if found is None:
             raise AttributeError(f"body {self.name!r} is of no material that yields")
