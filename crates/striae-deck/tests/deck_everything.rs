@@ -356,7 +356,7 @@ texture = {{ uniform = [0, 1, 0] }}
     assert!(matches!(textures, [Some(Paint::Field(_)), None]));
     let found = faults(&text("carcass"));
     assert!(
-        found[0].contains("in contact of everything, `[[contact.surface]]` must do so"),
+        found[0].contains("name the textured facets as `of` of a `[[contact.surface]]`"),
         "{found:?}"
     );
 }

@@ -653,7 +653,7 @@ pub enum FaultKind {
     },
     /// Textures do not fit the friction law.
     #[error(
-        "the friction of pair `{pair}` needs a texture on {required}; sides that have one: {found}; {}", texturing(*found)
+        "the friction of pair `{pair}` needs a texture on {required}; sides that have one: {found}; {}", texturing(*found, *is_named)
     )]
     Textures {
         /// The pair.
@@ -662,6 +662,8 @@ pub enum FaultKind {
         required: &'static str,
         /// Number of sides that have one.
         found: usize,
+        /// Is a pair of its own, not of contact of everything.
+        is_named: bool,
     },
     /// A texture given at nodes of a plane.
     #[error(
@@ -790,11 +792,12 @@ fn it_has(known: &[String]) -> String {
     }
 }
 
-fn texturing(found: usize) -> &'static str {
-    match found {
-        2 => "leave one of them out",
-        _ => {
-            "give a side its direction, such as `texture = { uniform = [1, 0, 0] }`; in contact of everything, `[[contact.surface]]` must do so for all facets of the pair, to which `[[contact.between]]` may restrict the law"
+fn texturing(found: usize, is_named: bool) -> &'static str {
+    match (found, is_named) {
+        (2, _) => "leave one of them out",
+        (_, true) => "give a side its direction, such as `texture = { uniform = [1, 0, 0] }`",
+        (_, false) => {
+            "name the textured facets as `of` of a `[[contact.surface]]`, and as `a` or `b` of a `[[contact.between]]` that gives their pair a law of its own from the start"
         }
     }
 }

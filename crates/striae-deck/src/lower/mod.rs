@@ -223,6 +223,7 @@ fn drafted<'a>(
         name: name(&raw.value.name),
         pair: lowered.pair.as_ref(),
         known: lowered.known,
+        is_named: true,
     });
     let ties = list(&raw.tie).iter().zip(ties);
     let ties = ties.map(|(raw, part)| Named {

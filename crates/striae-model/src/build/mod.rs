@@ -232,6 +232,7 @@ impl ModelBuilder {
             name: of.name(),
             pair: pair.as_ref(),
             known: Known::Whole,
+            is_named: true,
         });
         let ties = self.ties.iter().zip(ties).map(|(of, tie)| Named {
             name: of.name(),

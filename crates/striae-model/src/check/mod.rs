@@ -82,6 +82,8 @@ pub struct DraftPair<'a> {
     pub pair: Option<&'a Pair>,
     /// Completeness of the body.
     pub known: Known,
+    /// Is a pair of its own, not of contact of everything.
+    pub is_named: bool,
 }
 
 /// A step and whether all that it states is in it.
@@ -208,6 +210,7 @@ impl<'a> Draft<'a> {
             name: &pair.name,
             pair: Some(pair),
             known: Known::Whole,
+            is_named: false,
         }));
     }
 

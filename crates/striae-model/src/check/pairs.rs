@@ -7,7 +7,7 @@ use striae_mesh::Face;
 use striae_solve::model::{ContactSurface, Enforcement, Initial, Pair, Procedure, RigidShape};
 use striae_surface::texture::Paint;
 
-use super::{Draft, Known, List, Positions};
+use super::{Draft, DraftPair, Known, List, Positions};
 use crate::{fault::FaultKind, path::Path};
 
 /// Notes faults of all pairs; returns those that are no pairs or not wholly known.
@@ -36,7 +36,7 @@ pub(super) fn check(draft: &Draft<'_>, faults: &mut List) -> Positions {
             continue;
         }
         if draft.known == Known::Whole
-            && let Some(kind) = textures(pair, &pair.friction)
+            && let Some(kind) = textures(named, &pair.friction)
         {
             faults.push(path.clone().field("friction"), kind);
         }
@@ -92,7 +92,8 @@ pub(super) fn check_stabilised(
 }
 
 /// Friction without the textures that give it a direction, or with too many.
-pub(super) fn textures(pair: &Pair, friction: &Friction) -> Option<FaultKind> {
+pub(super) fn textures(of: &DraftPair, friction: &Friction) -> Option<FaultKind> {
+    let pair = of.pair?;
     let found = match (pair.is_on_itself(), &pair.textures) {
         // Both surfaces that touch have the one texture.
         (true, [Some(_), _]) => 2,
@@ -103,6 +104,7 @@ pub(super) fn textures(pair: &Pair, friction: &Friction) -> Option<FaultKind> {
         pair: pair.name.clone(),
         required,
         found,
+        is_named: of.is_named,
     })
 }
 

@@ -131,8 +131,9 @@ fn frictions(
             let what = format!("the friction of pair `{}`", named.name);
             faults.push(path.clone(), twice(step, what));
         }
-        let known = named.pair.filter(|_| !impossible.contains(&pair.0));
-        if let Some(kind) = known.and_then(|pair| pairs::textures(pair, friction)) {
+        if !impossible.contains(&pair.0)
+            && let Some(kind) = pairs::textures(named, friction)
+        {
             faults.push(path, kind);
         }
     }
