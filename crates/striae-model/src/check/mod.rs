@@ -188,7 +188,7 @@ impl<'a> Draft<'a> {
             steps: steps.collect(),
             known: Known::Whole,
         };
-        draft.extend(&model.pairs);
+        draft.add(&model.pairs, true);
         draft
     }
 
@@ -204,13 +204,17 @@ impl<'a> Draft<'a> {
         bodies.collect()
     }
 
-    /// Adds pairs that are known.
+    /// Adds the pairs of contact of everything.
     pub fn extend(&mut self, pairs: &'a [Pair]) {
+        self.add(pairs, false);
+    }
+
+    fn add(&mut self, pairs: &'a [Pair], is_named: bool) {
         self.pairs.extend(pairs.iter().map(|pair| DraftPair {
             name: &pair.name,
             pair: Some(pair),
             known: Known::Whole,
-            is_named: false,
+            is_named,
         }));
     }
 
