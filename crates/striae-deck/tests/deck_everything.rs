@@ -361,6 +361,34 @@ texture = {{ uniform = [0, 1, 0] }}
     );
 }
 
+/// A set of facets that is called `rest` is no rest: a step that changes the friction of its pair
+/// would change that of all other facets instead.
+#[test]
+fn a_set_may_be_called_rest() {
+    let block = "divisions = [2, 2, 1] }\n[[body]]\nname = \"carcass\"";
+    let with_set = block.replacen(
+        '\n',
+        "\nfacet_sets = [{ name = \"rest\", of = \"zmin\", from = [-1, -1, 0], to = [0.6, 2, 1] }]\n",
+        1,
+    );
+    let text = SCENE
+        .replace("nodes = \"all\"", "nodes = \"zmax\"")
+        .replace(block, &with_set)
+        + r#"
+[contact]
+all = true
+[[contact.between]]
+a = "tread.rest"
+b = "road"
+friction = { law = "coulomb", mu = 0.1 }
+"#;
+    let deck = parse(&text, "deck.toml", Path::new("")).unwrap_or_else(|faults| panic!("{faults}"));
+    let stated = Friction::coulomb(0.1).unwrap();
+    assert_eq!(pair(&deck.model, "tread.rest-road").friction, stated);
+    let rest = &pair(&deck.model, "tread.rest-2-road").friction;
+    assert!(rest.is_frictionless());
+}
+
 #[test]
 fn steps_change_friction_by_the_names_of_labels() {
     let changed = r#"

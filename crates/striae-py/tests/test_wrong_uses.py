@@ -493,6 +493,8 @@ def test_arrays_of_any_layout_are_understood() -> None:
 def test_parts_do_not_change_once_they_are_made(rubber: st.NeoHookean) -> None:
     law = st.Coulomb(0.3)
     body = st.Body("pad", st.block(), rubber)
+    model = st.Model([body])
+    model.step("hold", body["all"].hold())
     made: list[tuple[object, str]] = [
         (law, "mu"),
         (law.with_shear_cap(10.0), "mu"),
@@ -500,7 +502,8 @@ def test_parts_do_not_change_once_they_are_made(rubber: st.NeoHookean) -> None:
         (body, "density"),
         (st.Plane("floor"), "point"),
         (st.Pair(body["zmin"], st.Plane("floor"), law), "friction"),
-        (st.Model([body]), "solver"),
+        (model, "solver"),
+        (st.Model.from_text(model.to_deck()).body("pad"), "mesh"),
     ]
     for part, attribute in made:
         with pytest.raises(TypeError, match=f"{attribute} of an? .* cannot be assigned"):

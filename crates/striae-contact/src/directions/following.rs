@@ -3,9 +3,9 @@
 //! If displacements hold the nodes of the finer side along a unit vector `c`, the positions of the
 //! coarser side alone respond to friction along it, and tractions outnumber them, as they do where
 //! faces of several pairs share nodes. The law and the slip of every node are known all the same.
-//! What is missing is one distribution of friction among many of the same effect: the smoothest one,
-//! by a compliance of the kind of the [ramp](crate::ramp). With the positions `J` that respond along
-//! `c` and the nodes `l` that keep it,
+//! Among the many distributions of friction that have the same effect, a compliance of the kind of the
+//! [ramp](crate::ramp) selects the smoothest one. With the positions `J` that respond along `c` and the
+//! nodes `l` that keep it,
 //!
 //! ```text
 //! M_kl = sum_J D_kJ (D_lJ/sum_l' D_l'J) / sum_J D_kJ,   R_k = e_k - M_k

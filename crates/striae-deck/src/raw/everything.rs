@@ -8,7 +8,7 @@ use crate::{
 };
 
 table! {
-    /// Contact of every surface with every surface: all skins of bodies with each other, with themselves and with all rigid surfaces, which do not touch each other. A surface has a label: the name of a body, that of a rigid surface, or that of a body and of one of its facet sets, such as `tread.zmin`.
+    /// Contact of every surface with every surface: all skins of bodies with each other, with themselves and with all rigid surfaces. Rigid surfaces do not touch each other. A surface has a label: the name of a body, that of a rigid surface, or that of a body and of one of its facet sets, such as `tread.zmin`.
     Contact {
         /// `true`: everything may touch everything. Surfaces joined by a `pair` keep the settings
         /// of that pair, and tied facets are left out. `false`: only surfaces named by a `pair` may

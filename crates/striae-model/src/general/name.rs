@@ -82,6 +82,7 @@ impl<'a> Names<'a> {
             .flat_map(|mesh| mesh.facet_sets.iter());
         match sets.find(|(_, members)| *members == faces) {
             Some((set, _)) => format!("{}.{set}", draft.name),
+            // A set with this name has labels of its own, which steps and statements use.
             None => free(&format!("{}.rest", draft.name), |name| {
                 let set = name
                     .strip_prefix(draft.name)

@@ -238,6 +238,7 @@ class Body(Strict):
         body.name, body.mesh = name, mesh
         body.material, body.density, body._redistributed = None, None, False
         body._formulation, body.sections = None, ()
+        body._is_finished = True
         return body
 
     def __getitem__(self, name: str) -> BodySet:

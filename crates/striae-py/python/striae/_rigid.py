@@ -41,6 +41,7 @@ class Rigid(Made):
     def _known(cls, name: str) -> Rigid:
         rigid: Rigid = Rigid.__new__(Rigid)
         rigid.name, rigid.texture, rigid._native = name, None, None
+        rigid._is_finished = True
         return rigid
 
     def _take(
