@@ -22,7 +22,7 @@ use super::{
     release::{closed, released},
     rest::contact_at_rest,
     rule::{Ladder, is_final, later, part},
-    selected::{Selected, reselected, selected},
+    selected::{Selected, fitting, reselected, selected},
     workspace::Workspace,
 };
 use crate::{
@@ -44,6 +44,8 @@ pub(super) struct Attempt<'a> {
     imposed: &'a Imposed,
     /// Traction fields of all pairs.
     pub(super) selections: Vec<Selection>,
+    /// Those of the start, while the present ones were asked for by an iteration alone.
+    of_start: Option<Vec<Selection>>,
     /// The latest state.
     pub(super) trial: Trial,
     /// Norms of iterations from where the increment before leads to, if they failed.
@@ -98,6 +100,7 @@ impl<'a> Attempt<'a> {
             state,
             imposed,
             selections,
+            of_start: None,
             trial,
             given_up: Vec::new(),
             iterations: Vec::new(),
@@ -165,6 +168,10 @@ impl Attempt<'_> {
         for repetition in 0.. {
             assembled = self.converge(assembled, workspace, observer)?;
             flown(&self.setting(), &self.trial).map_or(Ok(()), Err)?;
+            if let Some(of_start) = self.returned(&assembled) {
+                assembled = self.taken_up(of_start, workspace)?;
+                continue;
+            }
             let Some((reason, found)) = self.missed(&assembled) else {
                 break;
             };
@@ -213,6 +220,7 @@ impl Attempt<'_> {
                 assembled = self.assembled(workspace, iteration)?;
             }
             if let Some(selected) = self.refreshed(number, &assembled) {
+                self.of_start = Some(self.selections.clone());
                 assembled = self.taken_up(selected, workspace)?;
             }
             let norms = assembled.norms;
@@ -354,6 +362,18 @@ impl Attempt<'_> {
         let found = reselected(&setting, &self.trial, &assembled.contacts);
         let gains = found.gains(&setting, &self.trial);
         gains.then_some((reason, found))
+    }
+
+    /// The fields of the start, where an iteration has asked for others and the end does not. It is
+    /// asked once: nodes at the limit of touching would alternate.
+    fn returned(&mut self, assembled: &Assembled) -> Option<Selected> {
+        let of_start = self.of_start.take()?;
+        let starts = Setting {
+            selections: &of_start,
+            ..self.setting()
+        };
+        let serves = missed(&starts, &self.trial).is_none();
+        serves.then(|| fitting(of_start, &self.setting(), &self.trial, &assembled.contacts))
     }
 
     /// Goes on with another traction field.

@@ -225,6 +225,25 @@ pub(super) fn reselected(setting: &Setting, trial: &Trial, contacts: &[Evaluatio
     }
 }
 
+/// Fields with unknowns that continue those of a trial state.
+pub(super) fn fitting(
+    selections: Vec<Selection>,
+    setting: &Setting,
+    trial: &Trial,
+    contacts: &[Evaluation],
+) -> Selected {
+    let mut tractions = trial.tractions.clone();
+    let had = setting.selections.iter().map(Selection::kept_nodes);
+    let fields = selections.iter().zip(had).zip(contacts);
+    for (((field, had), contact), tractions) in fields.zip(&mut tractions) {
+        fit(field, &had, &contact.carried, tractions);
+    }
+    Selected {
+        selections,
+        tractions,
+    }
+}
+
 /// Restricts friction of the kept nodes to the directions in which it is determined, in these
 /// configurations, where contact is as in `nodes`, in an increment from a state to what is imposed.
 fn restrict<'a>(

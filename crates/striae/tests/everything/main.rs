@@ -2,6 +2,7 @@
 
 mod around_edges;
 mod beside_pairs;
+mod chosen_again;
 mod closed;
 mod shared_edges;
 
