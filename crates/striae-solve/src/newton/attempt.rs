@@ -44,7 +44,7 @@ pub(super) struct Attempt<'a> {
     imposed: &'a Imposed,
     /// Traction fields of all pairs.
     pub(super) selections: Vec<Selection>,
-    /// Those of the start, while the present ones were asked for by an iteration alone.
+    /// Fields of the start, while the present ones were asked for by an iteration alone.
     of_start: Option<Vec<Selection>>,
     /// The latest state.
     pub(super) trial: Trial,
