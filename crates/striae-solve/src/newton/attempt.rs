@@ -170,6 +170,7 @@ impl Attempt<'_> {
             flown(&self.setting(), &self.trial).map_or(Ok(()), Err)?;
             if let Some(of_start) = self.returned(&assembled) {
                 assembled = self.taken_up(of_start, workspace)?;
+                self.has_reselected = false;
                 continue;
             }
             let Some((reason, found)) = self.missed(&assembled) else {
@@ -219,8 +220,11 @@ impl Attempt<'_> {
             if assembled.norms.largest() <= solver.tolerance && !self.is_sure(&assembled) {
                 assembled = self.assembled(workspace, iteration)?;
             }
-            if let Some(selected) = self.refreshed(number, &assembled) {
-                self.of_start = Some(self.selections.clone());
+            // The first iteration shows what comes into contact.
+            if number == 1
+                && let Some((_, selected)) = self.missed(&assembled)
+            {
+                self.of_start = Some(std::mem::take(&mut self.selections));
                 assembled = self.taken_up(selected, workspace)?;
             }
             let norms = assembled.norms;
@@ -344,14 +348,6 @@ impl Attempt<'_> {
             (true, false) => None,
             (false, _) => Some(norm),
         }
-    }
-
-    /// The traction field with what the first iteration shows to come into contact.
-    fn refreshed(&self, number: usize, assembled: &Assembled) -> Option<Selected> {
-        if number > 1 {
-            return None;
-        }
-        self.missed(assembled).map(|(_, found)| found)
     }
 
     /// Nodes without a share in the traction fields that have met the other surface, and the fields

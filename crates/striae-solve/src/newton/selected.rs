@@ -9,7 +9,7 @@ use striae_contact::{
     moved_pair::{MovedPair, Mover},
     pair_state::{PairState, Predicted, fit},
     placement::Placement,
-    selection::{Kept, Selection, deepest},
+    selection::{Selection, deepest},
     side::Side,
     unknowns::{NodeResult, Status, Tractions},
 };
@@ -127,17 +127,16 @@ fn without_freedoms(
     }
 }
 
-/// Takes nodes out of the fields where several pairs hold the same positions, and tells of which
-/// pairs.
+/// Takes nodes out of the fields where several pairs hold the same positions.
 fn compete<'a>(
     context: &'a StepContext,
     selections: &mut [Selection],
     start: impl Fn(usize) -> Configuration<'a>,
     predicted: impl Fn(usize) -> Option<Configuration<'a>>,
-) -> Vec<bool> {
+) {
     let pairs = 0..selections.len();
     if pairs.len() == 1 {
-        return vec![false];
+        return;
     }
     let latest = |pair| predicted(pair).unwrap_or_else(|| start(pair));
     let configurations: Vec<_> = pairs.clone().map(latest).collect();
@@ -155,7 +154,6 @@ fn compete<'a>(
                 selections[pair].keeping(&start(pair), predicted.as_ref(), kept, prescribed);
         }
     }
-    remaining.iter().map(Option::is_some).collect()
 }
 
 /// The fields chosen again with the contacts of a trial state. Pairs that carry all that met keep
@@ -170,11 +168,6 @@ pub(super) fn reselected(setting: &Setting, trial: &Trial, contacts: &[Evaluatio
     };
     let latest = |pair| context.configuration(pair, &trial.positions, &trial.rigid);
     let latest_worn = |pair: usize| latest(pair).worn(deepest(&setting.selections[pair].worn));
-    let had: Vec<Kept> = setting
-        .selections
-        .iter()
-        .map(Selection::kept_nodes)
-        .collect();
     let carries_all = |(pair, had): (usize, &Selection)| {
         // The search adds what has worn by itself.
         let state = setting.state;
@@ -197,32 +190,18 @@ pub(super) fn reselected(setting: &Setting, trial: &Trial, contacts: &[Evaluatio
             ..Selection::new(
                 &start(pair),
                 Some(&latest_worn(pair)),
-                &had[pair],
+                &of.kept_nodes(),
                 &context.fixed_on_pair[pair],
             )
         },
     };
     let mut selections: Vec<Selection> = pairs.map(again).collect();
     let worn = |pair| Some(latest_worn(pair));
-    let yields = compete(context, &mut selections, start, worn);
-    let mut tractions = trial.tractions.clone();
-    for (pair, tractions) in tractions.iter_mut().enumerate() {
-        if !settled[pair] || yields[pair] {
-            fit(
-                &selections[pair],
-                &had[pair],
-                &contacts[pair].carried,
-                tractions,
-            );
-        }
-    }
+    compete(context, &mut selections, start, worn);
     let nodes: Vec<_> = contacts.iter().map(|contact| &contact.nodes).collect();
     let ends = (setting.state, setting.imposed);
     restrict(context, ends, &mut selections, latest, &nodes);
-    Selected {
-        selections,
-        tractions,
-    }
+    fitting(selections, setting, trial, contacts)
 }
 
 /// Fields with unknowns that continue those of a trial state.

@@ -1,10 +1,6 @@
 //! Contact of everything beside named pairs of the faces that touch.
 
-use std::path::Path;
-
-use striae::{deck, prelude::*};
-
-use super::OF_FACES;
+use super::{OF_FACES, completed, forces};
 
 /// A soft block that is pushed off a stiff one and sinks behind its edge.
 const OFF: &str = r#"
@@ -58,18 +54,9 @@ friction = { law = "coulomb", mu = 0.3 }
     let all = format!("{all}{OF_FACES}");
     let [named, found] = [named, &all].map(|contact| {
         let text = OFF.replace("CONTACT", contact);
-        let deck = deck::parse(&text, "deck", Path::new("")).unwrap_or_else(|f| panic!("{f}"));
-        Simulation::of(deck).unwrap().run().unwrap()
+        completed(&text)
     });
-    assert_eq!(found.ending, Ending::Completed);
     assert_eq!(found.increments, named.increments);
-    let forces = |run: &Finished, pair: &str| -> [Vec<f64>; 3] {
-        let column = |axis| {
-            run.history
-                .column(&format!("pair.{pair}.resultant_a.{axis}"))
-        };
-        ["x", "y", "z"].map(|axis| column(axis).unwrap())
-    };
     let named = forces(&named, "soles");
     let found = forces(&found, "lower.zmax-upper.zmin");
     let last = named.each_ref().map(|axis| axis[15]);
@@ -126,9 +113,7 @@ SEARCH
     let pressed = |contact: &str, search: &str| {
         let contact = contact.replace("SEARCH", search);
         let text = SHEETS.replace("CONTACT", &contact);
-        let deck = deck::parse(&text, "deck", Path::new("")).unwrap_or_else(|f| panic!("{f}"));
-        let run = Simulation::of(deck).unwrap().run().unwrap();
-        assert_eq!(run.ending, Ending::Completed);
+        let run = completed(&text);
         assert!(run.summary.warnings.is_empty());
         let force = run.history.column("reaction.upper.zmax.z").unwrap();
         force[1]

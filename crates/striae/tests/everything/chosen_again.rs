@@ -1,8 +1,8 @@
 //! Traction fields that were chosen again during the iterations of an increment.
 
-use std::path::Path;
+use striae::Finished;
 
-use striae::{Finished, deck, prelude::*};
+use super::{completed, forces};
 
 /// A block that is drawn over ridges. In the first iteration of an increment, and only there, a
 /// flank of it touches.
@@ -34,10 +34,7 @@ increments = 5
 displacement = [{{ body = "block", nodes = "zmax", x = 7.1009, y = -12.9406, z = -1.5532 }}]
 "#
     );
-    let deck = deck::parse(&text, "deck", Path::new("")).unwrap_or_else(|f| panic!("{f}"));
-    let run = Simulation::of(deck).unwrap().run().unwrap();
-    assert_eq!(run.ending, Ending::Completed, "{}", run.ending);
-    run
+    completed(&text)
 }
 
 /// Named pairs do not look at the flanks, so their first iteration shows nothing new.
@@ -48,19 +45,14 @@ fn what_touches_in_an_iteration_alone_leaves_no_trace() {
     let named = drawn(&format!(
         "[[pair]]\nname = \"named\"\na = {{ body = \"block\", facets = \"zmin\" }}\nb = {{ rigid = \"floor\" }}\n{friction}"
     ));
-    for axis in ["x", "y", "z"] {
-        let force = |run: &Finished, pair: &str| {
-            let column = format!("pair.{pair}.resultant_a.{axis}");
-            run.history.column(&column).unwrap().to_vec()
-        };
-        let forces = force(&everything, "block-floor")
-            .into_iter()
-            .zip(force(&named, "named"));
-        for (increment, (all, named)) in forces.enumerate() {
+    let everything = forces(&everything, "block-floor");
+    for (all, named) in everything.iter().zip(&forces(&named, "named")) {
+        assert_eq!(all.len(), named.len());
+        for (increment, (all, named)) in all.iter().zip(named).enumerate() {
             // Of forces of some 500; 9e-4 where the trace is left.
             assert!(
                 (all - named).abs() < 1e-6,
-                "{axis}, increment {increment}: {all} for {named}"
+                "increment {increment}: {all} for {named}"
             );
         }
     }

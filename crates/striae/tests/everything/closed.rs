@@ -1,8 +1,6 @@
 //! Gaps that contact of everything closes at the start.
 
-use std::path::Path;
-
-use striae::{deck, prelude::*};
+use super::completed;
 
 /// A block above another one, over which it does not reach.
 const ABOVE: &str = r#"
@@ -63,11 +61,9 @@ displacement = [
 "#;
 
 /// Forces of pairs at the end, along `axis`.
-fn forces(deck: &str, contact: &str, pairs: &[(&str, &str)]) -> Vec<f64> {
+fn last_forces(deck: &str, contact: &str, pairs: &[(&str, &str)]) -> Vec<f64> {
     let text = deck.replace("CONTACT", contact);
-    let deck = deck::parse(&text, "deck", Path::new("")).unwrap_or_else(|f| panic!("{f}"));
-    let run = Simulation::of(deck).unwrap().run().unwrap();
-    assert_eq!(run.ending, Ending::Completed, "{}", run.ending);
+    let run = completed(&text);
     let last = |(pair, axis): &(&str, &str)| {
         let column = run
             .history
@@ -87,7 +83,7 @@ fn all_nodes_of_a_face_close_its_gap_those_on_edges_too() {
              b = {{ body = \"upper\", facets = \"zmin\" }}\ninitial = {initial}"
         );
         let [all, named] =
-            [all, named].map(|contact| forces(&above, &contact, &[("lower-upper", "z")]));
+            [all, named].map(|contact| last_forces(&above, &contact, &[("lower-upper", "z")]));
         assert!(
             (all[0] / named[0] - 1.0).abs() < 1e-3,
             "{all:?} and {named:?}"
@@ -98,7 +94,7 @@ fn all_nodes_of_a_face_close_its_gap_those_on_edges_too() {
 #[test]
 fn a_node_on_an_edge_closes_the_gaps_of_both_of_its_faces() {
     let pairs = [("corner-block", "z"), ("wall-block", "x")];
-    let closed = forces(
+    let closed = last_forces(
         CORNER,
         "[contact]\nall = true\ninitial = { close = 0.1 }",
         &pairs,
@@ -106,7 +102,7 @@ fn a_node_on_an_edge_closes_the_gaps_of_both_of_its_faces() {
     // The block as it stands once its gaps are closed.
     let flush = CORNER.replace("[0.02, 0, 1.05]", "[0, 0, 1]");
     let flush = flush.replace("[0.8, 1, 0.8]", "[0.82, 1, 0.85]");
-    let flush = forces(&flush, "[contact]\nall = true", &pairs);
+    let flush = last_forces(&flush, "[contact]\nall = true", &pairs);
     for (closed, flush) in closed.iter().zip(&flush) {
         assert!((closed / flush - 1.0).abs() < 0.02, "{closed} and {flush}");
     }
@@ -133,7 +129,7 @@ fn overlaps_at_edges_are_those_of_the_faces_that_meet() {
         );
         let all = format!("[contact]\nall = true\ninitial = \"{initial}\"");
         let [all, named] =
-            [all, named].map(|contact| forces(&deck, &contact, &[("lower-upper", "z")])[0]);
+            [all, named].map(|contact| last_forces(&deck, &contact, &[("lower-upper", "z")])[0]);
         assert!(
             (all / named - 1.0).abs() < 1e-6,
             "{left}, {initial}: {all} and {named}"

@@ -9,12 +9,29 @@ mod shared_edges;
 use std::path::Path;
 
 use striae::{
+    Finished,
     advice::{Advice, Topic},
     deck,
     model::Faults,
     prelude::*,
 };
 use striae_model::{ModelBuilder, rigid_surface};
+
+/// The run of a deck that gets to its end.
+fn completed(text: &str) -> Finished {
+    let deck = deck::parse(text, "deck", Path::new("")).unwrap_or_else(|f| panic!("{f}"));
+    let run = Simulation::of(deck).unwrap().run().unwrap();
+    assert_eq!(run.ending, Ending::Completed, "{}", run.ending);
+    run
+}
+
+/// Components of the force on side `a` of a pair after each increment.
+fn forces(run: &Finished, pair: &str) -> [Vec<f64>; 3] {
+    ["x", "y", "z"].map(|axis| {
+        let column = format!("pair.{pair}.resultant_a.{axis}");
+        run.history.column(&column).unwrap()
+    })
+}
 
 const DECK: &str = r#"
 title = "A tread on a road"

@@ -1,8 +1,8 @@
 //! Nodes that faces of several pairs share.
 
-use std::path::Path;
+use striae::Finished;
 
-use striae::{Finished, deck, prelude::*};
+use super::{completed, forces};
 
 const NAP: &str = r#"{ law = "nap", mu_forward = 0.21, mu_backward = 0.49, mu_lateral = 0.34 }"#;
 const TEXTURE: &str = "texture = { uniform = [0.31355, -0.372, 0.87367] }";
@@ -46,10 +46,7 @@ increments = 1
 displacement = [{{ body = "slider", nodes = "zmax", x = 0.063, y = 0.164, z = -0.125 }}]
 "#
     );
-    let deck = deck::parse(&text, "deck", Path::new("")).unwrap_or_else(|f| panic!("{f}"));
-    let run = Simulation::of(deck).unwrap().run().unwrap();
-    assert_eq!(run.ending, Ending::Completed, "{}", run.ending);
-    run
+    completed(&text)
 }
 
 /// The flanks of the slider meet its sole, and their corners touch the slab. Friction of what only
@@ -62,13 +59,9 @@ fn flanks_that_touch_take_no_friction_from_a_sole() {
     let named = drawn(&format!(
         "[[pair]]\nname = \"sole\"\na = {{ body = \"slab\", facets = \"zmax\" }}\nb = {{ body = \"slider\", facets = \"zmin\", {TEXTURE} }}\nfriction = {NAP}"
     ));
-    for axis in ["x", "y", "z"] {
-        let last = |run: &Finished, pair: &str| {
-            let column = format!("pair.{pair}.resultant_a.{axis}");
-            *run.history.column(&column).unwrap().last().unwrap()
-        };
-        let all = last(&everything, "slab.zmax-slider.zmin");
-        let sole = last(&named, "sole");
-        assert!((all - sole).abs() < 1e-8, "{axis}: {all} for {sole}");
+    let everything = forces(&everything, "slab.zmax-slider.zmin");
+    for (all, sole) in everything.iter().zip(&forces(&named, "sole")) {
+        let [all, sole] = [all, sole].map(|force| *force.last().unwrap());
+        assert!((all - sole).abs() < 1e-8, "{all} for {sole}");
     }
 }
