@@ -30,6 +30,9 @@ name = "back"
 increments = 2
 displacement = [{ body = "pad", nodes = "zmax", x = 0.0495 }]
 "#;
+/// A block over ridges. One increment asks for other traction fields in its first iteration, and
+/// returns to those of its start.
+const RIDGES: &str = include_str!("../everything/ridges.toml");
 /// A bar on a floor that it just touches at the end of the step.
 const BAR: &str = include_str!("bar.toml");
 
@@ -286,5 +289,15 @@ fn a_parameter_that_changes_the_formulation_is_refused() {
     assert!(
         refused.contains("`nu` changes the formulation of elements"),
         "{refused}"
+    );
+}
+
+#[test]
+fn fields_that_return_to_those_of_the_start_are_differentiated() {
+    let contact = "[contact]\nall = true\nfriction = { law = \"coulomb\", mu = 0.5788 }";
+    compare(
+        &RIDGES.replace("CONTACT", contact),
+        "contact.friction.mu",
+        0.5788,
     );
 }
