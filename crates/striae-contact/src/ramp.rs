@@ -100,8 +100,8 @@ pub fn add_to_gaps(
     }
 }
 
-/// Kept nodes that are given pressure: by points of their support, or by the ramp from others that
-/// are.
+/// Kept nodes that are given pressure: by points of their support, by the ramp from others that are,
+/// or by what wears off at these, which opens their gap.
 fn given_pressure(selection: &Selection, kinematics: &[Kinematics]) -> Vec<bool> {
     let touches = |kinematics: &Kinematics| match &kinematics.pressure {
         Pressure::AtNode => true,
@@ -116,6 +116,13 @@ fn given_pressure(selection: &Selection, kinematics: &[Kinematics]) -> Vec<bool>
             }
         }
     }
+    let worn = selection.wear().iter();
+    let worn = worn.map(|row| row.iter().any(|&(l, _)| given[l as usize]));
+    let worn: Vec<bool> = worn.collect();
+    given
+        .iter_mut()
+        .zip(worn)
+        .for_each(|(is, worn)| *is |= worn);
     given
 }
 
