@@ -72,17 +72,17 @@ impl Pressing {
     /// closed that nothing presses yet. Below `near` they count as closed for the next increment:
     /// at a gap of zero that nothing presses, round-off would decide otherwise.
     pub fn new(supports: Vec<Support>, heights: [f64; 8], [touching, near]: [f64; 2]) -> Self {
-        let limit = |support: &Support| match support.bedding > 0.0 {
-            true => support.pressure / support.bedding + touching,
+        let yields_by = |pressure: f64, bedding: f64| match bedding > 0.0 {
+            true => pressure / bedding,
             false => f64::NEG_INFINITY,
         };
-        let full = |support: &Support| match support.full > 0.0 {
-            true => support.pressure / support.full + near,
-            false => f64::NEG_INFINITY,
-        };
+        let limit = |support: &Support| yields_by(support.pressure, support.bedding);
+        // Where wear of others opens a gap, `p` is negative: a stiffer bedding would close more.
+        let full =
+            |support: &Support| yields_by(support.pressure, support.full).min(limit(support));
         Self {
-            full_limits: supports.iter().map(full).collect(),
-            limits: supports.iter().map(limit).collect(),
+            full_limits: supports.iter().map(|of| full(of) + near).collect(),
+            limits: supports.iter().map(|of| limit(of) + touching).collect(),
             supports,
             heights,
         }
