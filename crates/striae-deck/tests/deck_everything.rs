@@ -389,6 +389,30 @@ friction = { law = "coulomb", mu = 0.1 }
     assert!(rest.is_frictionless());
 }
 
+/// `x-y-z` could be two pairs of these bodies, so none is called so.
+#[test]
+fn names_with_hyphens_are_told_apart() {
+    let bodies = ["x", "y-z", "x-y", "z"].map(|name| {
+        format!(
+            "[[body]]\nname = \"{name}\"\nmaterial = \"rubber\"\nmesh = {{ generator = \"block\", origin = [0, 0, 5], size = [1, 1, 1], divisions = [1, 1, 1] }}\n"
+        )
+    });
+    let scene = SCENE.replace("nodes = \"all\"", "nodes = \"zmax\"");
+    let with = |changed: &str| {
+        let step =
+            format!("friction = [{{ pair = \"{changed}\", law = \"coulomb\", mu = 0.9 }}]\n");
+        let text = format!("{scene}{step}{}[contact]\nall = true\n", bodies.concat());
+        parse(&text, "deck.toml", Path::new("")).map_err(|faults| faults.to_string())
+    };
+    let found = with("x-y-z").unwrap_err();
+    assert!(found.contains("no pair is named `x-y-z`"), "{found}");
+    for name in ["x--y-z", "x-y--z"] {
+        assert!(found.contains(&format!("`{name}`")), "{name}: {found}");
+        let found = with(name).err().unwrap_or_default();
+        assert!(!found.contains("no pair is named"), "{found}");
+    }
+}
+
 #[test]
 fn steps_change_friction_by_the_names_of_labels() {
     let changed = r#"

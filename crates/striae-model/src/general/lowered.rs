@@ -157,6 +157,7 @@ impl Scene<'_> {
         let parts: Vec<&Part> = named(&self.rules, &self.painted).collect();
         let mut names = Names::new(self.draft, &self.atoms, &parts);
         let mut lowered = Lowered::default();
+        let mut sides = Vec::new();
         for (owners, laws) in groups {
             let own = owners.0 == owners.1;
             let found = laws.iter().flat_map(|((origin, painted), couples)| {
@@ -175,9 +176,10 @@ impl Scene<'_> {
                     let texture = textures[side[0]].filter(|_| has_textures)?;
                     Some(self.paint(side, texture))
                 };
+                sides.push([a.clone(), b.clone()]);
                 lowered.origins.push(origin);
                 lowered.pairs.push(Pair {
-                    name: names.pair(a, b),
+                    name: String::new(),
                     a: self.surface(a),
                     b: match &product {
                         Product::Itself(_) => ContactSurface::Itself,
@@ -198,6 +200,9 @@ impl Scene<'_> {
                     feature_angle: Some(all.feature_angle),
                 });
             }
+        }
+        for (pair, name) in lowered.pairs.iter_mut().zip(names.pairs(&sides)) {
+            pair.name = name;
         }
         lowered
     }

@@ -34,12 +34,27 @@ impl<'a> Names<'a> {
         }
     }
 
-    /// The name of the pair of two sides, `tread-road`.
-    pub(super) fn pair(&mut self, a: &[usize], b: &[usize]) -> String {
-        let name = format!("{}-{}", self.side(a), self.side(b));
-        let name = free(&name, |name| self.taken.iter().any(|taken| taken == name));
-        self.taken.push(name.clone());
-        name
+    /// The names of pairs by their sides, `tread-road`. Several pairs of one such name, as `x` and
+    /// `y-z` beside `x-y` and `z` would be, say where their sides meet: `x--y-z` and `x-y--z`.
+    pub(super) fn pairs(&mut self, sides: &[[Vec<usize>; 2]]) -> Vec<String> {
+        let labels = sides.iter().map(|[a, b]| [self.side(a), self.side(b)]);
+        let labels: Vec<[String; 2]> = labels.collect();
+        let mut count: BTreeMap<String, usize> = BTreeMap::new();
+        for label in &labels {
+            *count.entry(label.join("-")).or_default() += 1;
+        }
+        let names = labels.iter().map(|label| {
+            let name = label.join("-");
+            let name = if count[&name] > 1 {
+                label.join("--")
+            } else {
+                name
+            };
+            let name = free(&name, |name| self.taken.iter().any(|taken| taken == name));
+            self.taken.push(name.clone());
+            name
+        });
+        names.collect()
     }
 
     /// The label that says what these atoms of one owner are: that of the body or rigid surface,
