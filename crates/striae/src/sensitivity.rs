@@ -6,6 +6,7 @@ use striae_deck::{Laws, Reader, Setting};
 use striae_model::{Model, Validate};
 use striae_output::{
     OutputError,
+    checkpoint::model_fingerprint,
     history::{COUNTS, History, Table},
     state_row,
     summary::WarningSummary,
@@ -25,6 +26,9 @@ use crate::{error::Error, results::Results};
 const STEP: f64 = 1e-5;
 /// Uncertainty of a derivative, as part of the largest until then, above which there is a warning.
 const UNCERTAIN: f64 = 1e-5;
+
+/// Columns before the derivatives.
+const HEAD: [&str; 3] = ["increment", "step", "time"];
 
 /// Derivatives of a run by a parameter.
 #[derive(Clone, Debug)]
@@ -198,7 +202,9 @@ impl Followed {
             time: *time,
             text: format!("derivatives of the run end before time {time}: {reason}"),
         });
-        let of_each = neighbours.iter().flat_map(|of| [kinked(of), uncertain(of)]);
+        let of_each = neighbours.iter().zip(&self.tables);
+        let of_each =
+            of_each.flat_map(|(of, table)| [unused(of, table), kinked(of), uncertain(of)]);
         ended.chain(of_each.flatten()).collect()
     }
 
@@ -231,16 +237,37 @@ fn derivatives(progress: Progress, of: &Neighbours) -> Vec<(String, f64)> {
     };
     let [less, more] = rows;
     let head = [
-        ("increment", progress.increment as f64),
-        ("step", (progress.step + 1) as f64),
-        ("time", progress.time),
+        progress.increment as f64,
+        (progress.step + 1) as f64,
+        progress.time,
     ];
-    let head = head.map(|(name, value)| (name.to_owned(), value));
+    let head = HEAD.map(str::to_owned).into_iter().zip(head);
     let rest = less.into_iter().zip(more);
     let rest = rest.filter(|((name, _), _)| !counts(name));
     let rest =
         rest.map(|((name, less), (_, more))| (name, (more - less) / (2.0 * of.parameter.step)));
-    head.into_iter().chain(rest).collect()
+    head.chain(rest).collect()
+}
+
+/// The warning that a model does not depend on a parameter.
+fn unused(of: &Neighbours, table: &Table) -> Option<WarningSummary> {
+    let Parameter { name, problems, .. } = &of.parameter;
+    let head = HEAD.len();
+    let mut derivatives = table.rows.iter().flat_map(|row| &row[head..]);
+    // What a law of one's own contains is no part of the fingerprint.
+    let is_zero = derivatives.all(|derivative| *derivative == 0.0);
+    let [less, more] = problems.each_ref().map(|problem| &problem.model);
+    let is_unused = is_zero && model_fingerprint(less) == model_fingerprint(more);
+    is_unused.then(|| WarningSummary {
+        kind: "sensitivity".to_owned(),
+        pair: None,
+        value: 0.0,
+        limit: 0.0,
+        time: of.states[0].time,
+        text: format!(
+            "derivatives by `{name}` are all zero, as the model does not depend on it; name a number that the model uses"
+        ),
+    })
 }
 
 /// The warning of kinks.

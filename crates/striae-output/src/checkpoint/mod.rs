@@ -113,6 +113,11 @@ pub fn fingerprint(model: &Model, output: &Output) -> u64 {
     of(&(model, output))
 }
 
+/// Fingerprint of a model alone.
+pub fn model_fingerprint(model: &Model) -> u64 {
+    of(model)
+}
+
 /// Fingerprints of the bodies, rigid surfaces, pairs, ties, springs and cavities of a model, by what they are called.
 pub fn part_fingerprints(model: &Model) -> Vec<(String, u64)> {
     let bodies = model.bodies.iter();

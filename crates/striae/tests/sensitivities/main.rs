@@ -250,6 +250,27 @@ fn a_node_that_just_touches_is_named() {
 }
 
 #[test]
+fn a_parameter_that_nothing_uses_is_named() {
+    let pressed = BAR.replace("z = -0.01", "z = -0.02");
+    let text = format!("parameters = {{ unused = 3 }}\n{pressed}");
+    let told = |name: &str, value: f64| {
+        let finished = differentiated(&text, name, value);
+        let warnings = finished.summary.warnings.into_iter();
+        let warnings = warnings.filter(|warning| warning.kind == "sensitivity");
+        warnings.map(|of| of.text).collect::<Vec<_>>()
+    };
+    assert_eq!(
+        told("unused", 3.0),
+        [
+            "derivatives by `unused` are all zero, as the model does not depend on it; name a number that the model uses"
+        ]
+    );
+    // Friction of nodes that do not slip has no effect, but is used.
+    let of_friction = told("pair.foot.friction.mu", 0.3);
+    assert!(!of_friction.iter().any(|text| text.contains("all zero")));
+}
+
+#[test]
 fn the_run_itself_stays_as_it_is() {
     let alone = Simulation::new(model(DOME, &[])).unwrap().run().unwrap();
     let with = differentiated(DOME, "height", 1.0);
