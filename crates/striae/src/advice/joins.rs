@@ -84,7 +84,7 @@ fn touching(model: &Model, first: BodyId, second: BodyId, advice: &mut Advice) {
             Topic::Fit,
             a,
             format!(
-                "bodies `{a}` and `{b}` touch or overlap as meshed, but no pair and no tie joins them, so they pass through each other; add a [[pair]] or a [[tie]]"
+                "bodies `{a}` and `{b}` touch or overlap as meshed, but no pair and no tie joins them, so they pass through each other; add a [[pair]] or a [[tie]], or in contact of everything remove the `exclude` of their contact"
             ),
         );
     }

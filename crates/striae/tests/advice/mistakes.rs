@@ -755,7 +755,7 @@ material = "rubber""#;
             [PRESSED, &held],
         ],
         Topic::Fit,
-        "bodies `lid` and `pad` touch or overlap as meshed, but no pair and no tie joins them",
+        "bodies `lid` and `pad` touch or overlap as meshed, but no pair and no tie joins them, so they pass through each other; add a [[pair]] or a [[tie]], or in contact of everything remove the `exclude` of their contact",
     );
 }
 
