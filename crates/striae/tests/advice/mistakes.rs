@@ -522,6 +522,35 @@ fn loads_on_prescribed_nodes() {
 }
 
 #[test]
+fn loads_on_nodes_that_a_later_step_prescribes() {
+    let then = |load: &str, more: &str| {
+        format!("{load}\n[[step]]\nname = \"hold\"\n{PRESSED}\n{more}\n[[step]]\nname = \"wait\"")
+    };
+    let loads = [
+        (
+            "traction",
+            "facets",
+            "vector",
+            "the traction on facets `zmax`",
+        ),
+        ("force", "nodes", "total", "the force at nodes `zmax`"),
+    ];
+    for (key, set, value, words) in loads {
+        let load = |z: &str| {
+            format!("{key} = [{{ body = \"pad\", {set} = \"zmax\", {value} = [0, 0, {z}] }}]")
+        };
+        let text = format!(
+            "step `hold` prescribes the displacements along z of all nodes on which {words} of body `pad` acts, which goes on from an earlier step and now only changes reactions"
+        );
+        assert_warned(&[[PRESSED, &then(&load("-10"), "")]], Topic::Hold, &text);
+        let ended = then(&load("-10"), &load("0"));
+        assert_eq!(advice(&[[PRESSED, &ended]]).warnings, [], "{key}");
+        let along = then(&load("-10"), "").replace(", z = -0.02", "");
+        assert_eq!(advice(&[[PRESSED, &along]]).warnings, [], "{key}");
+    }
+}
+
+#[test]
 fn forces_and_slides_out_of_proportion() {
     let pushed = |force: &str| {
         format!("force = [{{ body = \"pad\", nodes = \"zmax\", total = [0, 0, {force}] }}]")

@@ -4,9 +4,8 @@
 use std::collections::BTreeSet;
 
 use striae_mesh::{Face, Mesh, NodeId};
-use striae_model::{
-    BodyId, ContactSurface, Freedom, Load, LoadKind, Model, NodalForce, Pair, Step, Value,
-};
+use striae_model::{ContactSurface, LoadKind, Model, Pair, Step, Value};
+use striae_solve::plan::{PlannedForce, PlannedLoad, StepPlan, plans};
 
 use super::super::{Advice, Topic};
 
@@ -15,53 +14,83 @@ const ACROSS: f64 = 0.1;
 /// Names of the components.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// Prescribed components of the nodes of every body.
-type Prescribed = Vec<BTreeSet<(NodeId, usize)>>;
-
 /// Warns of loads and pairs that do nothing, in the first step in which that is so.
 pub(in crate::advice) fn look(model: &Model, advice: &mut Advice) {
-    let mut prescribed: Prescribed = vec![BTreeSet::new(); model.bodies.len()];
-    let mut free = vec![[false; 6]; model.rigid_surfaces.len()];
+    let mut told = BTreeSet::new();
     let mut known = BTreeSet::new();
-    for step in &model.steps {
-        prescribe(&mut prescribed, step);
-        for motion in &step.rigid_motions {
-            let free = free[motion.surface.0].iter_mut();
-            for (coordinate, free) in motion.coordinates.iter().zip(free) {
-                *free = match coordinate {
-                    Freedom::AsBefore => *free,
-                    Freedom::To(_) => false,
-                    Freedom::Free => true,
-                };
-            }
+    for (step, plan) in model.steps.iter().zip(plans(model)) {
+        let idle = Idle::all(model, step, &plan);
+        for load in &idle {
+            load.tell(step, &told, advice);
         }
-        for load in &step.loads {
-            idle(model, step, load, &prescribed, advice);
-        }
-        for force in &step.forces {
-            idle_force(model, step, force, &prescribed, advice);
-        }
+        told = idle
+            .into_iter()
+            .map(|load| (load.body, load.what))
+            .collect();
         for (index, pair) in model.pairs.iter().enumerate() {
             let is_told = advice.warns_of(&pair.name, &[Topic::NeverMeets, Topic::Facing]);
-            if !is_told && undecided(model, pair, &prescribed, &free) && known.insert(index) {
+            if !is_told && undecided(model, pair, &plan) && known.insert(index) {
                 undecided_text(model, pair, step, advice);
             }
         }
     }
 }
 
-fn prescribe(prescribed: &mut Prescribed, step: &Step) {
-    for release in &step.releases {
-        let nodes: BTreeSet<NodeId> = release.nodes.iter().copied().collect();
-        prescribed[release.body.0]
-            .retain(|(node, component)| !(release.components[*component] && nodes.contains(node)));
+/// A load all of which acts on prescribed components.
+struct Idle<'m> {
+    /// Name of the body.
+    body: &'m str,
+    /// Kind and place.
+    what: String,
+    /// Components on which it acts.
+    axes: BTreeSet<usize>,
+    /// `true` if this step states it, `false` if an earlier one does.
+    is_stated: bool,
+}
+
+impl<'m> Idle<'m> {
+    /// Loads in force in a step that act on prescribed components only.
+    fn all(model: &'m Model, step: &Step, plan: &StepPlan) -> Vec<Self> {
+        let loads = plan.loads.iter().filter_map(|load| {
+            let kind = match load.to {
+                LoadKind::Pressure(_) => "pressure",
+                LoadKind::DeadTraction(_) | LoadKind::FollowerTraction(_) => "traction",
+            };
+            let mut stated = step.loads.iter().filter(|of| of.body == load.body);
+            Some(Self {
+                body: &model.bodies[load.body.0].name,
+                what: format!("the {kind} on facets `{}`", load.set),
+                axes: idle(model, load, plan)?,
+                is_stated: stated.any(|of| of.set == load.set && of.kind.is_like(&load.to)),
+            })
+        });
+        let forces = plan.forces.iter().filter_map(|force| {
+            let mut stated = step.forces.iter().filter(|of| of.body == force.body);
+            Some(Self {
+                body: &model.bodies[force.body.0].name,
+                what: format!("the force at nodes `{}`", force.set),
+                axes: idle_force(force, plan)?,
+                is_stated: stated.any(|of| of.set == force.set),
+            })
+        });
+        loads.chain(forces).collect()
     }
-    let stated = step.displacements.iter();
-    for condition in stated.filter(|of| of.axes.are_global()) {
-        for component in (0..3).filter(|at| condition.components[*at].is_some()) {
-            let nodes = condition.nodes.iter().map(|node| (*node, component));
-            prescribed[condition.body.0].extend(nodes);
-        }
+
+    /// Warns of it, and of one of an earlier step only if it was not idle before.
+    fn tell(&self, step: &Step, told: &BTreeSet<(&str, String)>, advice: &mut Advice) {
+        let Self { body, what, .. } = self;
+        let along: Vec<&str> = self.axes.iter().map(|axis| AXES[*axis]).collect();
+        let (step, along) = (&step.name, along.join(" and "));
+        let text = match self.is_stated {
+            true => format!(
+                "step `{step}`: {what} of body `{body}` acts on nodes whose displacements along {along} are all prescribed, so it only changes reactions; release these nodes, or remove the load"
+            ),
+            false if told.contains(&(*body, what.clone())) => return,
+            false => format!(
+                "step `{step}` prescribes the displacements along {along} of all nodes on which {what} of body `{body}` acts, which goes on from an earlier step and now only changes reactions; release these nodes, or set the load to zero"
+            ),
+        };
+        advice.warn(Topic::Hold, body, text);
     }
 }
 
@@ -76,84 +105,54 @@ fn axes(mesh: &Mesh, face: Face, kind: &LoadKind) -> Vec<usize> {
     axes.collect()
 }
 
-/// Warns of a load all of which acts on prescribed components.
-fn idle(model: &Model, step: &Step, load: &Load, prescribed: &Prescribed, advice: &mut Advice) {
-    let body = &model.bodies[load.body.0];
-    let of_body = &prescribed[load.body.0];
-    let Some(numbers) = load.kind.numbers().filter(|_| !of_body.is_empty()) else {
-        return;
-    };
+/// Components on which a load acts, where all of them are prescribed.
+fn idle(model: &Model, load: &PlannedLoad, plan: &StepPlan) -> Option<BTreeSet<usize>> {
+    let mesh = &model.bodies[load.body.0].mesh;
+    let numbers = load.to.numbers()?;
     let mut acting = BTreeSet::new();
     let held = load.faces.iter().all(|&face| {
-        let axes = axes(&body.mesh, face, &numbers);
+        let axes = axes(mesh, face, &numbers);
         acting.extend(axes.iter().copied());
-        let nodes = body.mesh.face_nodes(face);
-        let held = |node: &NodeId| axes.iter().all(|axis| of_body.contains(&(*node, *axis)));
-        nodes.iter().all(held)
+        holds(plan, load.body.0, &mesh.face_nodes(face), &axes)
     });
-    if !held || acting.is_empty() {
-        return;
-    }
-    let kind = match load.kind {
-        LoadKind::Pressure(_) => "pressure",
-        LoadKind::DeadTraction(_) | LoadKind::FollowerTraction(_) => "traction",
+    (held && !acting.is_empty()).then_some(acting)
+}
+
+/// Components on which forces at nodes act, where all of them are prescribed.
+fn idle_force(force: &PlannedForce, plan: &StepPlan) -> Option<BTreeSet<usize>> {
+    let acts = |axis: &usize| force.to[*axis] != Value::Number(0.0);
+    let acting: Vec<usize> = (0..3).filter(acts).collect();
+    let held = holds(plan, force.body.0, &force.nodes, &acting);
+    (held && !acting.is_empty()).then(|| acting.into_iter().collect())
+}
+
+/// True where components of all of some nodes of a body are prescribed.
+fn holds(plan: &StepPlan, body: usize, nodes: &[NodeId], axes: &[usize]) -> bool {
+    let is_held = |node: &NodeId, axis: &usize| {
+        let component = (body, node.index(), *axis);
+        plan.displacements.contains_key(&component)
     };
-    let what = format!("the {kind} on facets `{}`", load.set);
-    idle_text(&body.name, step, &what, &acting, advice);
-}
-
-/// Warns of a force all of which acts on prescribed components.
-fn idle_force(
-    model: &Model,
-    step: &Step,
-    force: &NodalForce,
-    prescribed: &Prescribed,
-    advice: &mut Advice,
-) {
-    let of_body = &prescribed[force.body.0];
-    let acts = |axis: &usize| force.force[*axis] != Value::Number(0.0);
-    let acting: BTreeSet<usize> = (0..3).filter(acts).collect();
-    let held = |node: &NodeId| acting.iter().all(|axis| of_body.contains(&(*node, *axis)));
-    if !acting.is_empty() && force.nodes.iter().all(held) {
-        let what = format!("the force at nodes `{}`", force.set);
-        let name = &model.bodies[force.body.0].name;
-        idle_text(name, step, &what, &acting, advice);
-    }
-}
-
-fn idle_text(body: &str, step: &Step, what: &str, axes: &BTreeSet<usize>, advice: &mut Advice) {
-    let along: Vec<&str> = axes.iter().map(|axis| AXES[*axis]).collect();
-    let text = format!(
-        "step `{}`: {what} of body `{body}` acts on nodes whose displacements along {} are all prescribed, so it only changes reactions; release these nodes, or remove the load",
-        step.name,
-        along.join(" and ")
-    );
-    advice.warn(Topic::Hold, body, text);
+    let mut nodes = nodes.iter();
+    nodes.all(|node| axes.iter().all(|axis| is_held(node, axis)))
 }
 
 /// True where a rigid surface that nothing but the deck moves meets nodes that are all
 /// prescribed along their normals. For two bodies that is a fault.
-fn undecided(model: &Model, pair: &Pair, prescribed: &Prescribed, free: &[[bool; 6]]) -> bool {
-    let ContactSurface::Rigid(rigid) = pair.b else {
-        return false;
-    };
-    let tied = !model.rigid_surfaces[rigid.0].ties.is_empty();
-    let ContactSurface::Deformable {
-        body: BodyId(body),
-        faces,
-    } = &pair.a
+fn undecided(model: &Model, pair: &Pair, plan: &StepPlan) -> bool {
+    let (ContactSurface::Deformable { body, faces }, ContactSurface::Rigid(rigid)) =
+        (&pair.a, &pair.b)
     else {
         return false;
     };
-    let (mesh, of_body) = (&model.bodies[*body].mesh, &prescribed[*body]);
+    let tied = !model.rigid_surfaces[rigid.0].ties.is_empty();
+    let is_free = plan.rigid[rigid.0].iter().any(Option::is_none);
+    let mesh = &model.bodies[body.0].mesh;
     let held = |face: &Face| {
         let normal = mesh.area_vector(*face).normalize();
         let axes: Vec<usize> = (0..3).filter(|at| normal[*at].abs() > ACROSS).collect();
-        let nodes = mesh.face_nodes(*face);
-        let mut nodes = nodes.iter();
-        nodes.all(|node| axes.iter().all(|axis| of_body.contains(&(*node, *axis))))
+        holds(plan, body.0, &mesh.face_nodes(*face), &axes)
     };
-    !tied && !free[rigid.0].contains(&true) && faces.iter().all(held)
+    !tied && !is_free && faces.iter().all(held)
 }
 
 fn undecided_text(model: &Model, pair: &Pair, step: &Step, advice: &mut Advice) {
