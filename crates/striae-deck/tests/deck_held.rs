@@ -349,7 +349,7 @@ fn a_curved_tool_turned_inside_out_is_named() {
     };
     assert_eq!(with(&facets[0]), None);
     let found = with(&facets[1]).expect("a fault");
-    for words in ["faces away from that of", "Reverse the facets of `roller`"] {
+    for words in ["faces away from it", "reverse the facets of `roller`"] {
         assert!(found.contains(words), "{found}");
     }
     assert!(!found.contains("inside"), "no talk of overlap: {found}");

@@ -2,7 +2,7 @@
 //! otherwise judged; textures without a direction; nodes of ties moved to their places.
 
 use striae_solve::{
-    initial::{InitialFault, away, close, crowded, fault, fits, turned},
+    initial::{InitialFault, close, crowded, fault, fits, wrong_way},
     model::{Initial, Model, PairId},
     painting,
     tie::placed,
@@ -31,9 +31,9 @@ pub fn fitted(model: Model) -> Result<Model, Vec<Fault>> {
     // Nodes are moved only towards surfaces that face them.
     for (index, pair) in model.pairs.iter().enumerate() {
         if matches!(pair.initial, Initial::Close(_))
-            && let Some(found) = turned(&model, PairId(index))
+            && let Some(found) = wrong_way(&model, PairId(index))
         {
-            return Err(vec![located(away(&model, PairId(index), found))]);
+            return Err(vec![located(found)]);
         }
     }
     let model = close(model).map_err(|fault| vec![located(fault)])?;

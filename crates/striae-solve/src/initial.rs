@@ -71,12 +71,8 @@ pub fn fits(model: &Model) -> Vec<Option<Fit>> {
 /// Fault of a pair with this fit.
 pub fn fault(model: &Model, pair: PairId, fit: &Fit) -> Option<InitialFault> {
     let of_pair = &model.pairs[pair.0];
-    if fit.lies == Lies::Behind && is_wholly_behind(model, pair) {
-        return Some(InitialFault::Behind {
-            pair: of_pair.name.clone(),
-            body: side_name(model, &of_pair.a).to_owned(),
-            rigid: side_name(model, &of_pair.b).to_owned(),
-        });
+    if let Some(fault) = behind(model, pair, fit) {
+        return Some(fault);
     }
     if of_pair.interference.is_some()
         && let Some(fault) = unseated(model, pair, fit)
@@ -86,9 +82,7 @@ pub fn fault(model: &Model, pair: PairId, fit: &Fit) -> Option<InitialFault> {
     if let Some(turned) = back_to_back(model, pair, fit) {
         return Some(away(model, pair, turned));
     }
-    let overlap = fit
-        .overlap
-        .filter(|overlap| overlap.share() > LARGEST_OVERLAP)?;
+    let overlap = fit.overlap.filter(|_| is_deep(fit))?;
     // Of surfaces that do not face each other, what is in front seems to be inside.
     if let Some(turned) = turned(model, pair).or_else(|| askew(model, pair)) {
         return Some(away(model, pair, turned));
@@ -110,6 +104,21 @@ pub fn fault(model: &Model, pair: PairId, fit: &Fit) -> Option<InitialFault> {
             Initial::AsMeshed | Initial::Resolve => Closing::Open,
         },
     })
+}
+
+/// Returns whether sides overlap by more than meshes that touch.
+fn is_deep(fit: &Fit) -> bool {
+    let overlap = fit.overlap.as_ref();
+    overlap.is_some_and(|overlap| overlap.share() > LARGEST_OVERLAP)
+}
+
+/// The fault that a pair is the wrong way round, so that its gaps cannot be closed.
+pub fn wrong_way(model: &Model, pair: PairId) -> Option<InitialFault> {
+    if let Some(turned) = turned(model, pair) {
+        return Some(away(model, pair, turned));
+    }
+    let fit = Reference::new(model, pair)?.fit(model);
+    behind(model, pair, &fit)
 }
 
 /// Returns whether overlaps of a pair that are pressed out are those of curved surfaces that
@@ -153,17 +162,8 @@ pub fn away(model: &Model, pair: PairId, turned: Turned) -> InitialFault {
         cosine,
     } = turned;
     let of_pair = &model.pairs[pair.0];
-    let rigid = match &of_pair.b {
-        ContactSurface::Rigid(rigid) => {
-            let of_rigid = &model.rigid_surfaces[rigid.0];
-            let reversal = match of_rigid.shape {
-                RigidShape::Plane { .. } => Reversal::Normal,
-                RigidShape::Facets { .. } | RigidShape::Bare => Reversal::Corners,
-            };
-            Some(Box::new((of_rigid.name.clone(), reversal)))
-        }
-        ContactSurface::Deformable { .. } | ContactSurface::Itself => None,
-    };
+    let reversal = reversal(model, &of_pair.b);
+    let rigid = reversal.map(|how| Box::new((side_name(model, &of_pair.b).to_owned(), how)));
     InitialFault::Away {
         pair: of_pair.name.clone(),
         body: other_name(model, pair, side.opposite()).to_owned(),
@@ -173,6 +173,17 @@ pub fn away(model: &Model, pair: PairId, turned: Turned) -> InitialFault {
         angle: cosine.clamp(-1.0, 1.0).acos().to_degrees(),
         rigid,
     }
+}
+
+/// Part of the statement of a side to reverse, if it is rigid.
+fn reversal(model: &Model, side: &ContactSurface) -> Option<Reversal> {
+    let ContactSurface::Rigid(rigid) = side else {
+        return None;
+    };
+    Some(match model.rigid_surfaces[rigid.0].shape {
+        RigidShape::Plane { .. } => Reversal::Normal,
+        RigidShape::Facets { .. } | RigidShape::Bare => Reversal::Corners,
+    })
 }
 
 /// The node, of the mesh of its body or rigid surface, that a surface node is.
@@ -251,20 +262,34 @@ impl Reference {
     }
 }
 
-/// Returns whether all nodes of the body of side `a` are behind a rigid side.
-fn is_wholly_behind(model: &Model, pair: PairId) -> bool {
-    let Some(reference) = Reference::new(model, pair) else {
-        return false;
+/// The fault that all of a body is behind a rigid side, or on it: what overlaps a tool that faces
+/// it has nodes in front.
+fn behind(model: &Model, pair: PairId, fit: &Fit) -> Option<InitialFault> {
+    let of_pair = &model.pairs[pair.0];
+    let reversal = reversal(model, &of_pair.b)?;
+    if fit.lies != Lies::Behind && !is_deep(fit) {
+        return None;
+    }
+    let reference = Reference::new(model, pair)?;
+    let mesh = &model.bodies[reference.geometry.bodies[0]?].mesh;
+    let round_off = LARGEST_OVERLAP * mesh.characteristic_size();
+    let is_behind = |stage: &Stage, x: &Vec3| {
+        let (point, normal) = match stage.configuration.plane() {
+            Some(plane) => plane,
+            None => match nearest_of(stage.configuration.side(Side::B), x) {
+                Some(nearest) if nearest.standing == Standing::Behind => return true,
+                Some(nearest) => (nearest.point, nearest.normal),
+                None => return false,
+            },
+        };
+        (x - point).dot(&normal) <= round_off
     };
-    let Some(body) = reference.geometry.bodies[0] else {
-        return false;
-    };
-    let nodes = &model.bodies[body].mesh.positions;
-    reference.at(model, |stage| match stage.configuration.plane() {
-        Some((point, normal)) => nodes.iter().all(|x| (x - point).dot(&normal) < 0.0),
-        None => nodes.iter().all(|x| {
-            let nearest = nearest_of(stage.configuration.side(Side::B), x);
-            nearest.is_some_and(|nearest| nearest.standing == Standing::Behind)
-        }),
+    let mut nodes = mesh.positions.iter();
+    let is_all = reference.at(model, |stage| nodes.all(|x| is_behind(stage, x)));
+    is_all.then(|| InitialFault::Behind {
+        pair: of_pair.name.clone(),
+        body: side_name(model, &of_pair.a).to_owned(),
+        rigid: side_name(model, &of_pair.b).to_owned(),
+        reversal,
     })
 }

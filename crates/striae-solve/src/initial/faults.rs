@@ -63,7 +63,8 @@ pub enum InitialFault {
     },
     /// A body is on the wrong side of a rigid surface.
     #[error(
-        "pair `{pair}`: body `{body}` is entirely behind `{rigid}`, whose normal points away from it; reverse the normal of `{rigid}`"
+        "pair `{pair}`: body `{body}` is entirely behind `{rigid}`, which faces away from it; reverse {}, or exclude this contact if `{rigid}` is meant for another body",
+        reversal.of(rigid)
     )]
     Behind {
         /// Name of the pair.
@@ -72,6 +73,8 @@ pub enum InitialFault {
         body: String,
         /// The rigid surface.
         rigid: String,
+        /// Part of its statement to reverse.
+        reversal: Reversal,
     },
     /// The sides do not face each other, as where facets are turned inside out.
     #[error(
@@ -173,15 +176,25 @@ pub enum Reversal {
     Corners,
 }
 
+impl Reversal {
+    /// Object of a request to reverse it.
+    fn of(self, rigid: &str) -> String {
+        match self {
+            Self::Normal => format!("the normal of `{rigid}`"),
+            Self::Corners => format!(
+                "the facets of `{rigid}` (list their corners counter-clockwise as seen from the body)"
+            ),
+        }
+    }
+}
+
 /// Advice for surfaces that look away from each other.
 fn turning(rigid: &Option<Box<(String, Reversal)>>) -> String {
     match rigid.as_deref() {
-        Some((rigid, Reversal::Corners)) => format!(
-            "Reverse the facets of `{rigid}` (list their corners counter-clockwise as seen from the body), or name the facets of the body that face it"
+        Some((rigid, reversal)) => format!(
+            "Reverse {}, or name the facets of the body that face it",
+            reversal.of(rigid)
         ),
-        Some((rigid, Reversal::Normal)) => {
-            format!("Reverse the normal of `{rigid}`, or name the facets of the body that face it")
-        }
         None => "Name the facets that face each other".to_owned(),
     }
 }

@@ -1,0 +1,90 @@
+//! Contact of everything is warned of as pairs with names are.
+
+use std::path::Path;
+
+use striae::deck::{self, Deck, Faults};
+
+/// A pad on a floor, and no names of surfaces.
+const DECK: &str = r#"
+title = "A pad on a floor"
+
+[[material]]
+name = "rubber"
+law = "neo-hookean"
+youngs_modulus = 1e6
+poissons_ratio = 0.3
+
+[[body]]
+name = "pad"
+material = "rubber"
+mesh = { generator = "block", size = [1, 1, 1], divisions = [3, 3, 3] }
+
+[[rigid]]
+name = "floor"
+plane = { point = [0, 0, 0], normal = [0, 0, 1] }
+
+[contact]
+all = true
+friction = { law = "coulomb", mu = 0.3 }
+
+[[step]]
+name = "press"
+displacement = [{ body = "pad", nodes = "zmax", x = 0, y = 0, z = -0.02 }]
+"#;
+
+const PRESSED: &str =
+    r#"displacement = [{ body = "pad", nodes = "zmax", x = 0, y = 0, z = -0.02 }]"#;
+const PLANE: &str = "plane = { point = [0, 0, 0], normal = [0, 0, 1] }";
+
+/// The deck with passages replaced.
+fn read(passages: &[[&str; 2]]) -> Result<Deck, Faults> {
+    let text = passages.iter().fold(DECK.to_owned(), |text, [old, new]| {
+        assert_eq!(text.matches(old).count(), 1, "`{old}`");
+        text.replace(old, new)
+    });
+    deck::parse(&text, "deck.toml", Path::new(""))
+}
+
+/// A tool above the pad, and a step that moves it down.
+fn tool(facets: &str, height: f64) -> [String; 2] {
+    let top = height + 0.3;
+    let tool = format!(
+        "{PLANE}\n[[rigid]]\nname = \"tool\"\nreference = [0.5, 0.5, {height}]\nmesh = {{ positions = [[0.3, 0.3, {height}], [0.7, 0.3, {height}], [0.7, 0.7, {height}], [0.3, 0.7, {height}], [0.3, 0.3, {top}], [0.7, 0.3, {top}], [0.7, 0.7, {top}], [0.3, 0.7, {top}]], facets = [{facets}] }}"
+    );
+    let lowered = PRESSED.replace("zmax", "zmin").replace("-0.02", "0");
+    let lowered =
+        format!("{lowered}\nrigid = [{{ surface = \"tool\", displacement = [0, 0, -0.07] }}]");
+    [tool, lowered]
+}
+
+const CUBE: [&str; 2] = [
+    "[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]",
+    "[1, 2, 3, 0], [7, 6, 5, 4], [4, 5, 1, 0], [5, 6, 2, 1], [6, 7, 3, 2], [7, 4, 0, 3]",
+];
+
+#[test]
+fn a_tool_that_is_inside_out() {
+    let exclude = "all = true\nexclude = [{ a = \"pad\", b = \"floor\" }]";
+    let with = |facets: &str, height: f64, more: &str| {
+        let [tool, lowered] = tool(facets, height);
+        let more = format!("{exclude}\n{more}");
+        read(&[[PLANE, &tool], [PRESSED, &lowered], ["all = true", &more]])
+    };
+    for initial in ["", "initial = \"resolve\"", "initial = \"close\""] {
+        for facets in [CUBE[1], "[0, 1, 2, 3]"] {
+            for height in [1.0, 1.01] {
+                let found = with(facets, height, initial)
+                    .expect_err("a fault")
+                    .to_string();
+                let words = "body `pad` is entirely behind `tool`, which faces away from it; reverse the facets of `tool` (list their corners counter-clockwise as seen from the body), or exclude this contact if `tool` is meant for another body";
+                assert!(found.contains(words), "{initial} {height}: {found}");
+            }
+        }
+        assert!(with(CUBE[0], 1.01, initial).is_ok());
+    }
+    // What reaches into a tool that faces it overlaps.
+    for facets in [CUBE[0], "[0, 3, 2, 1]"] {
+        let found = with(facets, 0.9, "").expect_err("a fault").to_string();
+        assert!(found.contains("inside `"), "{found}");
+    }
+}
