@@ -10,6 +10,7 @@ mod crowd;
 mod facing;
 mod faults;
 mod offsets;
+mod opposed;
 mod reach;
 mod surfaces;
 mod translation;
@@ -36,6 +37,7 @@ use facing::askew;
 pub use facing::{Turned, back_to_back, turned};
 pub use faults::{Closing, InitialFault, Reversal};
 pub use offsets::{Offsets, meant_depth};
+pub use opposed::opposed;
 pub use reach::may_meet;
 pub use surfaces::surfaces;
 

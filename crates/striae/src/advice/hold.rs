@@ -13,6 +13,7 @@ use striae_mesh::{Mesh, Vec3};
 use striae_model::{
     Body, BodyId, ContactSurface, Model, Mover, PairId, Procedure, RigidMotions, Step,
 };
+use striae_solve::initial::opposed;
 
 use super::{Advice, Topic};
 
@@ -173,11 +174,11 @@ fn stop_by(model: &Model, pair: PairId, body: BodyId, motions: &mut RigidMotions
         .map_or(&pair.friction, |(_, friction)| friction);
     let is_rough =
         !matches!(friction.law(), Law::Frictionless) && friction.coefficient().at_rest() > 0.0;
-    for side in [&pair.a, &pair.b] {
-        let ContactSurface::Deformable { body: of, faces } = side else {
+    for (side, faces) in [&pair.a, &pair.b].into_iter().zip(opposed(model, pair)) {
+        let ContactSurface::Deformable { body: of, .. } = side else {
             continue;
         };
-        for &face in faces.iter().filter(|_| *of == body) {
+        for face in faces.into_iter().filter(|_| *of == body) {
             let normal = mesh.area_vector(face).normalize();
             for x in mesh.face_positions(face) {
                 match is_rough || pair.stabilised {

@@ -2,7 +2,10 @@
 
 use std::path::Path;
 
-use striae::deck::{self, Deck, Faults};
+use striae::{
+    advice::{Advice, Topic},
+    deck::{self, Deck, Faults},
+};
 
 /// A pad on a floor, and no names of surfaces.
 const DECK: &str = r#"
@@ -34,6 +37,7 @@ displacement = [{ body = "pad", nodes = "zmax", x = 0, y = 0, z = -0.02 }]
 
 const PRESSED: &str =
     r#"displacement = [{ body = "pad", nodes = "zmax", x = 0, y = 0, z = -0.02 }]"#;
+const COULOMB: &str = r#"friction = { law = "coulomb", mu = 0.3 }"#;
 const PLANE: &str = "plane = { point = [0, 0, 0], normal = [0, 0, 1] }";
 
 /// The deck with passages replaced.
@@ -43,6 +47,34 @@ fn read(passages: &[[&str; 2]]) -> Result<Deck, Faults> {
         text.replace(old, new)
     });
     deck::parse(&text, "deck.toml", Path::new(""))
+}
+
+fn advice(passages: &[[&str; 2]]) -> Advice {
+    Advice::of(&read(passages).expect("a valid deck").model)
+}
+
+fn pressure(value: f64) -> String {
+    format!("pressure = [{{ body = \"pad\", facets = \"zmax\", value = {value} }}]")
+}
+
+#[track_caller]
+fn assert_warned(passages: &[[&str; 2]], words: &str) {
+    let warnings = advice(passages).warnings;
+    let [warning] = &warnings[..] else {
+        panic!("{warnings:?}");
+    };
+    assert_eq!(warning.topic, Topic::Hold);
+    assert!(warning.text.contains(words), "{}", warning.text);
+}
+
+#[test]
+fn a_body_that_nothing_holds_along_the_floor() {
+    let pressed = pressure(10.0);
+    assert_warned(
+        &[[PRESSED, &pressed], [COULOMB, ""]],
+        "the contact of `pad-floor` leaves it free along x, along y and about z, as it is frictionless",
+    );
+    assert_eq!(advice(&[[PRESSED, &pressed]]).warnings, []);
 }
 
 /// A tool above the pad, and a step that moves it down.
