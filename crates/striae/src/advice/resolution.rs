@@ -7,7 +7,7 @@
 //! (x - p) . n <= way
 //! ```
 //!
-//! Of a flat side these are all nodes or none; of a curved one they span the contact, over
+//! Of a flat face these are all nodes or none; of a curved one they span the contact, over
 //! whose radius pressures need about five elements. Contact of other surfaces is as wide as
 //! [`width`] finds.
 
@@ -21,6 +21,7 @@ use striae_contact::initial::Fit;
 
 use striae_mesh::{Mesh, NodeId, Vec3};
 use striae_model::{BodyId, ContactSurface, Freedom, Model, Pair, RigidId, RigidShape, Step};
+use striae_solve::initial::opposed;
 
 use super::{Advice, Topic};
 
@@ -55,7 +56,7 @@ pub(super) fn look(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) {
 
 /// Number of nodes of a side that can touch a plane, and number of all its nodes.
 fn nodes(model: &Model, pair: &Pair, step: &Step) -> Option<(usize, usize)> {
-    let (ContactSurface::Deformable { body, faces }, ContactSurface::Rigid(rigid)) =
+    let (ContactSurface::Deformable { body, .. }, ContactSurface::Rigid(rigid)) =
         (&pair.a, &pair.b)
     else {
         return None;
@@ -66,6 +67,7 @@ fn nodes(model: &Model, pair: &Pair, step: &Step) -> Option<(usize, usize)> {
     let n = normal.normalize();
     let mesh = &model.bodies[body.0].mesh;
     let way = approach(step, (*body, mesh), *rigid, &n);
+    let [faces, _] = opposed(model, pair);
     let nodes = faces.iter().flat_map(|face| mesh.face_nodes(*face));
     let nodes: BTreeSet<NodeId> = nodes.collect();
     let near = |node: &&NodeId| (mesh.positions[node.index()] - point).dot(&n) <= way;

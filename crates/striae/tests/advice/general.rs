@@ -77,6 +77,24 @@ fn a_body_that_nothing_holds_along_the_floor() {
     assert_eq!(advice(&[[PRESSED, &pressed]]).warnings, []);
 }
 
+#[test]
+fn flat_faces_are_not_curved() {
+    let notes = advice(&[]).notes;
+    assert!(
+        !notes.iter().any(|note| note.text.contains("curved")),
+        "{notes:?}"
+    );
+    let cap = "mesh = { generator = \"capped-block\", size = [10, 10], height = 5, radius = 10, element_size = 2.5 }";
+    let block = "mesh = { generator = \"block\", size = [1, 1, 1], divisions = [3, 3, 3] }";
+    let pressed = PRESSED.replace("0.02", "0.1");
+    let notes = advice(&[[block, cap], [PRESSED, &pressed]]).notes;
+    let words = "nodes touch the plane; pressures of a curved contact";
+    assert!(
+        notes.iter().any(|note| note.text.contains(words)),
+        "{notes:?}"
+    );
+}
+
 /// A tool above the pad, and a step that moves it down.
 fn tool(facets: &str, height: f64) -> [String; 2] {
     let top = height + 0.3;
