@@ -1,6 +1,6 @@
 //! Bodies and rigid bodies that contact can only push away.
 //!
-//! Contact pushes and never pulls. Where all contact surfaces of a body push it the same way
+//! Contact pushes and never pulls. Where all faces of a body that can touch push it the same way
 //! along an axis, no node is prescribed along that axis and the loads do not push it back, no
 //! quasi-static equilibrium with a contact force exists: the body flies off. Every step is judged,
 //! with the loads that it has from earlier ones: they may not pull on the way, and must press at
@@ -17,6 +17,7 @@
 use striae_law::friction::Friction;
 use striae_mesh::{Face, Mesh, NodeId, Vec3};
 use striae_solve::{
+    initial::opposed,
     model::{
         Body, BodyId, CavityContent, ContactSurface, LoadExtent, LoadKind, Model, Moment, Mover,
         Procedure, RigidId, Step,
@@ -43,23 +44,27 @@ pub(super) fn faults(model: &Model) -> Vec<Fault> {
     let plans = plans(model);
     let bodies = (0..model.bodies.len()).map(BodyId);
     let bodies = bodies.filter(|body| !is_joined(model, *body));
-    let pieces = bodies.flat_map(|body| pieces(model, body));
+    let opposed: Vec<[Vec<Face>; 2]> = model.pairs.iter().map(|of| opposed(model, of)).collect();
+    let pieces = bodies.flat_map(|body| pieces(model, body, &opposed));
     let rigid = (0..model.rigid_surfaces.len()).map(RigidId);
     let rigid = rigid.filter(|rigid| {
         let untied = model.rigid_surfaces[rigid.0].ties.is_empty();
         untied && !is_sprung(model, Mover::Rigid(*rigid))
     });
-    let rigid = rigid.map(|rigid| Pushed::rigid(model, rigid));
+    let rigid = rigid.map(|rigid| Pushed::rigid(model, rigid, &opposed));
     let movers = pieces.chain(rigid);
     movers
         .filter_map(|mover| {
-            // Directions of contact are those of the meshes: what has turned is not judged any more.
+            // Directions of contact are those of the meshes: what has turned is not judged any more,
+            // nor what may have come to face other surfaces.
             let steps = model.steps.iter().zip(&plans).enumerate();
             let mut steps = steps.take_while(|(index, _)| {
                 let before = model.steps.iter().zip(&plans).take(*index);
-                !before
-                    .into_iter()
-                    .any(|(step, plan)| mover.turns(model, step, plan))
+                let is_known = *index == 0 || mover.is_expected_to_touch(model);
+                is_known
+                    && !before
+                        .into_iter()
+                        .any(|(step, plan)| mover.turns(model, step, plan))
             });
             steps.find_map(|(index, (step, plan))| {
                 let kind = mover.away(model, step, plan)?;
@@ -103,23 +108,31 @@ enum Of<'m> {
     Rigid(RigidId),
 }
 
-fn pieces(model: &Model, body: BodyId) -> Vec<Pushed<'_>> {
+fn pieces<'m>(model: &'m Model, body: BodyId, opposed: &[[Vec<Face>; 2]]) -> Vec<Pushed<'m>> {
     let Body { name, mesh, .. } = &model.bodies[body.0];
     let pieces = mesh.pieces();
     let count = pieces.len();
+    let is_own = |side: &ContactSurface| matches!(side, ContactSurface::Deformable { body: of, .. } if *of == body);
+    let mut pairs = model.pairs.iter();
+    if count > 1 && pairs.any(|pair| pair.is_within_a_body() && is_own(&pair.a)) {
+        // They may push each other.
+        return Vec::new();
+    }
     let pushed = pieces.into_iter().map(|nodes| {
         let own = |face: &&Face| nodes.binary_search(&mesh.face_nodes(**face)[0]).is_ok();
-        let pushes = |side: &ContactSurface| match side {
-            ContactSurface::Deformable { body: of, faces } if *of == body => {
+        let pushes = |(side, faces): (&ContactSurface, &Vec<Face>)| match side {
+            ContactSurface::Deformable { body: of, .. } if *of == body => {
                 let faces = faces.iter().filter(own);
                 faces.map(|face| -mesh.area_vector(*face).normalize()).collect()
             }
             _ => Vec::new(),
         };
-        // A body does not push itself anywhere.
-        let pairs = model.pairs.iter().enumerate();
-        let pairs = pairs.filter(|(_, pair)| !pair.is_within_a_body());
-        let pairs = pairs.map(|(at, pair)| (at, [pushes(&pair.a), pushes(&pair.b)].concat()));
+        // A piece does not push itself anywhere.
+        let pairs = model.pairs.iter().zip(opposed).enumerate();
+        let pairs = pairs.filter(|(_, (pair, _))| !pair.is_within_a_body());
+        let pairs = pairs.map(|(at, (pair, [on_a, on_b]))| {
+            (at, [pushes((&pair.a, on_a)), pushes((&pair.b, on_b))].concat())
+        });
         Pushed {
             name: match count {
                 1 => format!("body `{name}`"),
@@ -136,10 +149,10 @@ fn pieces(model: &Model, body: BodyId) -> Vec<Pushed<'_>> {
 }
 
 impl<'m> Pushed<'m> {
-    fn rigid(model: &'m Model, rigid: RigidId) -> Self {
+    fn rigid(model: &'m Model, rigid: RigidId, opposed: &[[Vec<Face>; 2]]) -> Self {
         let is = |side: &ContactSurface| matches!(side, ContactSurface::Rigid(of) if *of == rigid);
-        let pushes = |side: &ContactSurface| match side {
-            ContactSurface::Deformable { body, faces } => {
+        let pushes = |(side, faces): (&ContactSurface, &Vec<Face>)| match side {
+            ContactSurface::Deformable { body, .. } => {
                 let mesh = &model.bodies[body.0].mesh;
                 let faces = faces.iter();
                 faces
@@ -148,11 +161,14 @@ impl<'m> Pushed<'m> {
             }
             ContactSurface::Rigid(_) | ContactSurface::Itself => Vec::new(),
         };
-        let pairs = model.pairs.iter().enumerate();
-        let pairs = pairs.filter_map(|(at, pair)| match (is(&pair.a), is(&pair.b)) {
-            (true, _) => Some((at, pushes(&pair.b))),
-            (_, true) => Some((at, pushes(&pair.a))),
-            _ => None,
+        let pairs = model.pairs.iter().zip(opposed).enumerate();
+        let pairs = pairs.filter_map(|(at, (pair, [on_a, on_b]))| {
+            let pushes = match (is(&pair.a), is(&pair.b)) {
+                (true, _) => pushes((&pair.b, on_b)),
+                (_, true) => pushes((&pair.a, on_a)),
+                _ => return None,
+            };
+            (!pushes.is_empty()).then_some((at, pushes))
         });
         Self {
             name: format!("rigid body `{}`", model.rigid_surfaces[rigid.0].name),
@@ -182,6 +198,12 @@ impl<'m> Pushed<'m> {
             load,
             pairs: pairs.map(|(at, _)| model.pairs[*at].name.clone()).collect(),
         })
+    }
+
+    /// Returns whether all its faces are stated because they touch.
+    fn is_expected_to_touch(&self, model: &Model) -> bool {
+        let mut pairs = self.pairs.iter();
+        pairs.all(|(pair, _)| model.pairs[*pair].is_expected_to_touch())
     }
 
     /// True where a step may turn it, or a rigid body that it touches.

@@ -67,6 +67,47 @@ fn assert_warned(passages: &[[&str; 2]], words: &str) {
     assert!(warning.text.contains(words), "{}", warning.text);
 }
 
+#[track_caller]
+fn assert_refused(passages: &[[&str; 2]], words: &str) {
+    let found = read(passages).expect_err("a fault").to_string();
+    assert!(found.contains(words), "{found}");
+}
+
+#[test]
+fn a_body_that_is_pulled_off() {
+    let words = "contact can only push body `pad` along +z in step `press`, and its loads pull it in the same direction, away from the contact of `pad-floor`";
+    assert_refused(&[[PRESSED, &pressure(-10.0)]], words);
+    assert!(read(&[[PRESSED, &pressure(10.0)]]).is_ok());
+    // Above it there is something that it may be pulled against.
+    let ceiling = format!(
+        "{PLANE}\n[[rigid]]\nname = \"ceiling\"\nplane = {{ point = [0, 0, 1.1], normal = [0, 0, -1] }}"
+    );
+    assert!(read(&[[PRESSED, &pressure(-10.0)], [PLANE, &ceiling]]).is_ok());
+}
+
+/// The base has a larger face, and flanks that look the same way as those of the pad.
+#[test]
+fn a_body_that_is_pulled_off_another() {
+    let base = "name = \"base\"\nmaterial = \"rubber\"\nmesh = { generator = \"block\", origin = [-1, -1, -1], size = [3, 3, 1], divisions = [3, 3, 1] }\n[[body]]\nname = \"pad\"";
+    let held = |load: &str| {
+        format!(
+            "displacement = [{{ body = \"base\", nodes = \"zmin\", x = 0, y = 0, z = 0 }}]\n{load}"
+        )
+    };
+    let floor = "plane = { point = [0, 0, -1], normal = [0, 0, 1] }";
+    let with = |load: &str| {
+        read(&[
+            ["name = \"pad\"", base],
+            [PLANE, floor],
+            [PRESSED, &held(load)],
+        ])
+    };
+    let found = with(&pressure(-10.0)).expect_err("a fault").to_string();
+    let words = "contact can only push body `pad` along +z in step `press`";
+    assert!(found.contains(words), "{found}");
+    assert!(with(&pressure(10.0)).is_ok());
+}
+
 #[test]
 fn a_body_that_nothing_holds_along_the_floor() {
     let pressed = pressure(10.0);
