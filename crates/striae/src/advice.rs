@@ -125,7 +125,7 @@ impl Advice {
         hold::look(model, &fits, &mut advice);
         everything::look(model, &mut advice);
         fit::look(model, &fits, &mut advice);
-        setup::prescribed::look(model, &mut advice);
+        setup::prescribed::look(model, &fits, &mut advice);
         sagitta::look(model, &fits, &mut advice);
         pressed::look(model, &fits, &mut advice);
         resolution::look(model, &fits, &mut advice);

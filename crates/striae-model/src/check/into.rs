@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 
 use striae_mesh::{Face, Mesh, NodeId, Vec3};
 use striae_solve::{
+    initial::opposed,
     model::{ContactSurface, Model, Pair, RigidId, RigidShape},
     plan::{Prescription, StepPlan, plans},
 };
@@ -54,7 +55,7 @@ struct MovedSide<'m> {
 
 impl<'m> MovedSide<'m> {
     fn new(model: &'m Model, pair: &'m Pair) -> Option<Self> {
-        let (ContactSurface::Deformable { body, faces }, ContactSurface::Rigid(rigid)) =
+        let (ContactSurface::Deformable { body, .. }, ContactSurface::Rigid(rigid)) =
             (&pair.a, &pair.b)
         else {
             return None;
@@ -65,6 +66,10 @@ impl<'m> MovedSide<'m> {
         };
         let mesh = &model.bodies[body.0].mesh;
         let nodes = |face: &Face| mesh.face_nodes(*face);
+        let [faces, _] = opposed(model, pair);
+        if faces.is_empty() {
+            return None;
+        }
         Some(Self {
             mesh,
             body: body.0,

@@ -86,10 +86,13 @@ fn stop_prescribed(mesh: &Mesh, step: &Step, body: BodyId, motions: &mut RigidMo
 
 /// Returns whether a pair touches at the start, or is stabilised until it does.
 fn holds(model: &Model, fits: &[Option<Fit>], pair: usize, mesh: &Mesh) -> bool {
-    let tolerance = TOUCHING * mesh.characteristic_size();
     let fit = fits[pair].as_ref();
-    let touches = fit.is_some_and(|fit| fit.distance <= tolerance || fit.overlap.is_some());
-    touches || model.pairs[pair].stabilised
+    fit.is_some_and(|fit| touches(fit, mesh)) || model.pairs[pair].stabilised
+}
+
+/// Returns whether a pair of a body of this mesh touches at the start.
+pub(super) fn touches(fit: &Fit, mesh: &Mesh) -> bool {
+    fit.distance <= TOUCHING * mesh.characteristic_size() || fit.overlap.is_some()
 }
 
 fn names(model: &Model, pairs: &[usize]) -> String {

@@ -119,6 +119,30 @@ fn a_body_that_nothing_holds_along_the_floor() {
 }
 
 #[test]
+fn a_face_that_is_prescribed() {
+    let sole = |way: &str| {
+        let sole = format!("displacement = [{{ body = \"pad\", nodes = \"zmin\", z = {way} }}, ");
+        PRESSED.replace("displacement = [", &sole)
+    };
+    assert_warned(
+        &[[PRESSED, &sole("0")]],
+        "displacements prescribe all nodes of the contact surface of `pad` along its normal",
+    );
+    // On a floor at rest, what is held at rest needs no contact.
+    let clamped = sole("0").replace(r#""zmin", z"#, r#""zmin", x = 0, y = 0, z"#);
+    assert_eq!(advice(&[[PRESSED, &clamped]]).warnings, []);
+    // A floor that is not touched does not matter.
+    let below = "plane = { point = [0, 0, -1], normal = [0, 0, 1] }";
+    assert_eq!(
+        advice(&[[PRESSED, &sole("0")], [PLANE, below]]).warnings,
+        []
+    );
+    let words =
+        "displacements move all nodes of its contact surface, up to 0.01 deep into the rigid plane";
+    assert_refused(&[[PRESSED, &sole("-0.01")]], words);
+}
+
+#[test]
 fn flat_faces_are_not_curved() {
     let notes = advice(&[]).notes;
     assert!(

@@ -3,11 +3,15 @@
 
 use std::collections::BTreeSet;
 
+use striae_contact::initial::Fit;
 use striae_mesh::{Face, Mesh, NodeId};
 use striae_model::{ContactSurface, LoadKind, Model, Pair, Step, Value};
-use striae_solve::plan::{PlannedForce, PlannedLoad, StepPlan, plans};
+use striae_solve::{
+    initial::opposed,
+    plan::{PlannedForce, PlannedLoad, Prescription, StepPlan, plans},
+};
 
-use super::super::{Advice, Topic};
+use super::super::{Advice, Topic, hold::touches};
 
 /// Component of a normal that counts as zero.
 const ACROSS: f64 = 0.1;
@@ -15,7 +19,7 @@ const ACROSS: f64 = 0.1;
 const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// Warns of loads and pairs that do nothing, in the first step in which that is so.
-pub(in crate::advice) fn look(model: &Model, advice: &mut Advice) {
+pub(in crate::advice) fn look(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) {
     let mut told = BTreeSet::new();
     let mut known = BTreeSet::new();
     for (step, plan) in model.steps.iter().zip(plans(model)) {
@@ -27,9 +31,9 @@ pub(in crate::advice) fn look(model: &Model, advice: &mut Advice) {
             .into_iter()
             .map(|load| (load.body, load.what))
             .collect();
-        for (index, pair) in model.pairs.iter().enumerate() {
+        for (index, (pair, fit)) in model.pairs.iter().zip(fits).enumerate() {
             let is_told = advice.warns_of(&pair.name, &[Topic::NeverMeets, Topic::Facing]);
-            if !is_told && undecided(model, pair, &plan) && known.insert(index) {
+            if !is_told && undecided(model, pair, fit.as_ref(), &plan) && known.insert(index) {
                 undecided_text(model, pair, step, advice);
             }
         }
@@ -137,22 +141,42 @@ fn holds(plan: &StepPlan, body: usize, nodes: &[NodeId], axes: &[usize]) -> bool
 }
 
 /// True where a rigid surface that nothing but the deck moves meets nodes that are all
-/// prescribed along their normals. For two bodies that is a fault.
-fn undecided(model: &Model, pair: &Pair, plan: &StepPlan) -> bool {
-    let (ContactSurface::Deformable { body, faces }, ContactSurface::Rigid(rigid)) =
+/// prescribed along their normals. For two bodies that is a fault. Faces that are not stated
+/// because they touch must do so, and not be at rest.
+fn undecided(model: &Model, pair: &Pair, fit: Option<&Fit>, plan: &StepPlan) -> bool {
+    let (ContactSurface::Deformable { body, .. }, ContactSurface::Rigid(rigid)) =
         (&pair.a, &pair.b)
     else {
         return false;
     };
     let tied = !model.rigid_surfaces[rigid.0].ties.is_empty();
-    let is_free = plan.rigid[rigid.0].iter().any(Option::is_none);
+    let coordinates = &plan.rigid[rigid.0];
+    let is_free = coordinates.iter().any(Option::is_none);
     let mesh = &model.bodies[body.0].mesh;
+    let touches = fit.is_some_and(|fit| touches(fit, mesh));
+    if tied || is_free || !(touches || pair.is_expected_to_touch()) {
+        return false;
+    }
+    let [faces, _] = opposed(model, pair);
     let held = |face: &Face| {
         let normal = mesh.area_vector(*face).normalize();
         let axes: Vec<usize> = (0..3).filter(|at| normal[*at].abs() > ACROSS).collect();
         holds(plan, body.0, &mesh.face_nodes(*face), &axes)
     };
-    !tied && !is_free && faces.iter().all(held)
+    let rests = |how: Option<&Prescription>| match how {
+        Some(Prescription::Hold) => true,
+        Some(Prescription::Go { target, .. }) => *target == Value::Number(0.0),
+        None => false,
+    };
+    let is_at_rest = |node: &NodeId| {
+        let component = |axis| plan.displacements.get(&(body.0, node.index(), axis));
+        (0..3).all(|axis| rests(component(axis)))
+    };
+    let are_at_rest = || {
+        let mut nodes = faces.iter().flat_map(|face| mesh.face_nodes(*face));
+        coordinates.iter().all(|how| rests(how.as_ref())) && nodes.all(|node| is_at_rest(&node))
+    };
+    faces.iter().all(held) && (pair.is_expected_to_touch() || !are_at_rest())
 }
 
 fn undecided_text(model: &Model, pair: &Pair, step: &Step, advice: &mut Advice) {
