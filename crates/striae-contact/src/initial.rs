@@ -8,6 +8,7 @@
 //! A point faces the other side if `n . n_other < -.2` and it is not beyond its edge.
 
 mod faces;
+pub mod facing;
 
 use rayon::prelude::*;
 use striae_mesh::Vec3;
