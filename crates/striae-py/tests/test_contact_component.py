@@ -313,7 +313,8 @@ def test_values_of_other_contacts_are_refused() -> None:
         contact.begin(other.untouched())
     # The mesh with its other side, which has as many nodes.
     opposite = [facet[::-1] for facet in FACETS]
-    turned = Contact(POINTS, [Pair(Surface(opposite, youngs_modulus=K), st.Plane("floor"))])
+    ceiling = st.Plane("ceiling", normal=(0, 0, -1))
+    turned = Contact(POINTS, [Pair(Surface(opposite, youngs_modulus=K), ceiling)])
     with pytest.raises(st.ModelError, match=f"state: {foreign}"):
         contact.begin(turned.untouched())
     begun = contact.begin(contact.untouched())

@@ -18,6 +18,7 @@ use super::{
 };
 use crate::{
     configuration::Configuration,
+    initial::facing::{Seen, back_to_back},
     pair::{ContactPair, Enforcement, Geometry, PairedSurface, SideTexture},
     placement::Placement,
     side::Side,
@@ -65,14 +66,36 @@ impl Contact {
                 })),
             }
         }
-        match faults.is_empty() {
-            true => Ok(Self(Arc::new(Parts {
-                checksum: checksum(&positions, &members),
-                reference: positions,
-                members,
-            }))),
-            false => Err(Faults(faults)),
+        if !faults.is_empty() {
+            return Err(Faults(faults));
         }
+        let contact = Self(Arc::new(Parts {
+            checksum: checksum(&positions, &members),
+            reference: positions,
+            members,
+        }));
+        let away = (0..pairs.len()).filter_map(|pair| contact.away(pair));
+        let away: Vec<Fault> = away.collect();
+        match away.is_empty() {
+            true => Ok(contact),
+            false => Err(Faults(away)),
+        }
+    }
+
+    /// The fault that the sides of a pair touch and look away from each other.
+    fn away(&self, pair: usize) -> Option<Fault> {
+        let placements = vec![Placement::at_rest(); self.pair_count()];
+        let configuration = self.configuration(pair, self.reference(), &placements);
+        let found = back_to_back(&configuration).filter(Seen::touches)?;
+        let surface = self.surface(pair, found.side)?;
+        Some(Fault {
+            place: format!("pairs[{pair}]"),
+            kind: FaultKind::Away {
+                node: surface.nodes()[found.node.index()],
+                side: found.side,
+                angle: found.cosine.clamp(-1.0, 1.0).acos().to_degrees(),
+            },
+        })
     }
 
     /// Number of nodes of the mesh.

@@ -5,6 +5,8 @@ use std::fmt;
 use striae_mesh::NodeId;
 use striae_surface::texture::TextureError;
 
+use crate::side::Side;
+
 /// All faults that were found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Faults(pub Vec<Fault>);
@@ -59,6 +61,18 @@ pub enum FaultKind {
     Folded {
         /// The node.
         node: NodeId,
+    },
+    /// Sides that look away from each other, as where facets are turned inside out.
+    #[error(
+        "its sides face away from each other, so they cannot touch: at {node} of side `{side}` their normals are {angle:.0} degrees apart, and 180 would be face to face; order the corners of each facet counter-clockwise seen from outside"
+    )]
+    Away {
+        /// The node, of the mesh or of the rigid surface.
+        node: NodeId,
+        /// Its side.
+        side: Side,
+        /// Angle between the normals there, in degrees.
+        angle: f64,
     },
     /// A node on both sides of a pair.
     #[error("{node} is on side `a`, too; the sides of a pair must have no node in common")]

@@ -24,6 +24,19 @@ fn pair(facets: Vec<[NodeId; 4]>) -> Pair {
     }
 }
 
+#[test]
+fn surfaces_that_are_inside_out_are_refused() {
+    let (points, facets) = grid(2, 1.0, 0, false);
+    let turned = facets.iter().map(|[a, b, c, d]| [*a, *d, *c, *b]);
+    let turned = pair(turned.collect());
+    let told = "pairs[0]: its sides face away from each other, so they cannot touch: at node 0 of side `a` their normals are 0 degrees apart, and 180 would be face to face; order the corners of each facet counter-clockwise seen from outside";
+    assert_eq!(refused(&points, turned.clone()), told);
+    assert!(Contact::new(points.clone(), &[pair(facets)]).is_ok());
+    // From afar a motion may turn it.
+    let afar: Vec<Vec3> = points.iter().map(|x| x + 9.0 * Vec3::z()).collect();
+    assert!(Contact::new(afar, &[turned]).is_ok());
+}
+
 /// A pair whose friction depends on rate and state.
 fn creeping(facets: Vec<[NodeId; 4]>) -> Pair {
     let law = RateAndState {
