@@ -234,7 +234,7 @@ pub fn advance(
         interferences,
         overlaps,
         acceptance,
-        has_reselected,
+        origin,
         ..
     } = attempt;
     given_up.extend(iterations);
@@ -263,7 +263,7 @@ pub fn advance(
             assembled,
         ),
         selections,
-        has_reselected,
+        has_reselected: origin.has_reselected(),
         iterations: given_up,
     })
 }

@@ -22,7 +22,7 @@ use super::{
     release::{closed, released},
     rest::contact_at_rest,
     rule::{Ladder, is_final, later, part},
-    selected::{Selected, fitting, reselected, selected},
+    selected::{Origin, Selected, selected},
     workspace::Workspace,
 };
 use crate::{
@@ -44,8 +44,8 @@ pub(super) struct Attempt<'a> {
     imposed: &'a Imposed,
     /// Traction fields of all pairs.
     pub(super) selections: Vec<Selection>,
-    /// Fields of the start, while the present ones were asked for by an iteration alone.
-    of_start: Option<Vec<Selection>>,
+    /// Origin of these fields.
+    pub(super) origin: Origin,
     /// The latest state.
     pub(super) trial: Trial,
     /// Norms of iterations from where the increment before leads to, if they failed.
@@ -64,8 +64,6 @@ pub(super) struct Attempt<'a> {
     pub(super) acceptance: Acceptance,
     /// Pairs that are closed in the latest state.
     closed: Vec<bool>,
-    /// `true` if the traction fields were chosen again.
-    pub(super) has_reselected: bool,
     /// Rules of the first iteration.
     first: Iteration,
     /// The tangent there is.
@@ -100,7 +98,7 @@ impl<'a> Attempt<'a> {
             state,
             imposed,
             selections,
-            of_start: None,
+            origin: Origin::default(),
             trial,
             given_up: Vec::new(),
             iterations: Vec::new(),
@@ -112,7 +110,6 @@ impl<'a> Attempt<'a> {
             acceptance: Acceptance::default(),
             // Until contact has been evaluated nothing is known to have opened.
             closed: vec![true; context.pairs.len()],
-            has_reselected: false,
             first: Iteration::First,
             chord: Chord::default(),
         }
@@ -168,17 +165,15 @@ impl Attempt<'_> {
         for repetition in 0.. {
             assembled = self.converge(assembled, workspace, observer)?;
             flown(&self.setting(), &self.trial).map_or(Ok(()), Err)?;
-            if let Some(of_start) = self.returned(&assembled) {
-                assembled = self.taken_up(of_start, workspace)?;
-                self.has_reselected = false;
-                continue;
-            }
-            let Some((reason, found)) = self.missed(&assembled) else {
+            let Some(found) = self.others(&assembled, true) else {
                 break;
             };
             // Selections could alternate for ever between two sets of nodes.
             if repetition == REPETITIONS {
-                return Err(reason);
+                match missed(&self.setting(), &self.trial) {
+                    Some(reason) => return Err(reason),
+                    None => break,
+                }
             }
             assembled = self.taken_up(found, workspace)?;
         }
@@ -220,11 +215,7 @@ impl Attempt<'_> {
             if assembled.norms.largest() <= solver.tolerance && !self.is_sure(&assembled) {
                 assembled = self.assembled(workspace, iteration)?;
             }
-            // The first iteration shows what comes into contact.
-            if number == 1
-                && let Some((_, selected)) = self.missed(&assembled)
-            {
-                self.of_start = Some(std::mem::take(&mut self.selections));
+            if let Some(selected) = self.refreshed(number, &assembled) {
                 assembled = self.taken_up(selected, workspace)?;
             }
             let norms = assembled.norms;
@@ -350,26 +341,25 @@ impl Attempt<'_> {
         }
     }
 
-    /// Nodes without a share in the traction fields that have met the other surface, and the fields
-    /// chosen again with them; `None` where these are the same, as other pairs hold what met.
-    fn missed(&self, assembled: &Assembled) -> Option<(CutBack, Selected)> {
-        let setting = self.setting();
-        let reason = missed(&setting, &self.trial)?;
-        let found = reselected(&setting, &self.trial, &assembled.contacts);
-        let gains = found.gains(&setting, &self.trial);
-        gains.then_some((reason, found))
+    /// The traction field with what the first iteration shows to come into contact.
+    fn refreshed(&mut self, number: usize, assembled: &Assembled) -> Option<Selected> {
+        if number > 1 {
+            return None;
+        }
+        self.others(assembled, false)
     }
 
-    /// The fields of the start, where an iteration has asked for others and the end does not. It is
-    /// asked once: nodes at the limit of touching would alternate.
-    fn returned(&mut self, assembled: &Assembled) -> Option<Selected> {
-        let of_start = self.of_start.take()?;
-        let starts = Setting {
-            selections: &of_start,
-            ..self.setting()
+    /// The fields that the latest state asks for, unless they are those it has.
+    fn others(&mut self, assembled: &Assembled, is_converged: bool) -> Option<Selected> {
+        let setting = Setting {
+            context: self.context,
+            state: self.state,
+            selections: &self.selections,
+            imposed: self.imposed,
         };
-        let serves = missed(&starts, &self.trial).is_none();
-        serves.then(|| fitting(of_start, &self.setting(), &self.trial, &assembled.contacts))
+        let contacts = &assembled.contacts;
+        self.origin
+            .others(&setting, &self.trial, contacts, is_converged)
     }
 
     /// Goes on with another traction field.
@@ -378,8 +368,8 @@ impl Attempt<'_> {
         selected: Selected,
         workspace: &mut Workspace,
     ) -> Result<Assembled, CutBack> {
-        self.selections = selected.selections;
-        self.has_reselected = true;
+        let before = std::mem::replace(&mut self.selections, selected.selections);
+        self.origin.replaced(before);
         self.trial.tractions = selected.tractions;
         workspace.extend(self.context.problem, &self.selections);
         // New unknowns are a new problem: its iterations deserve the usual weights first.

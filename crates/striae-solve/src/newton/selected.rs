@@ -22,6 +22,9 @@ use crate::{
     state::State,
 };
 
+/// Change of the weights of kept nodes, over the largest, below which fields are the same.
+const SAME: f64 = 1e-6;
+
 /// Traction fields of all pairs and unknowns that fit them.
 pub(super) struct Selected {
     pub(super) selections: Vec<Selection>,
@@ -29,15 +32,89 @@ pub(super) struct Selected {
 }
 
 impl Selected {
+    /// Returns whether these fields have the kept nodes of others, with the same weights.
+    fn are(&self, others: &[Selection]) -> bool {
+        self.selections.iter().zip(others).all(|(one, other)| {
+            let weights = one.basis.weights.iter().zip(&other.basis.weights);
+            let largest = one.basis.weights.iter().copied().fold(0.0, f64::max);
+            one.basis.kept == other.basis.kept
+                && weights
+                    .into_iter()
+                    .all(|(a, b)| (a - b).abs() <= SAME * largest)
+        })
+    }
+
     /// Returns whether these fields carry something in a trial state that those before do not.
-    pub(super) fn gains(&self, setting: &Setting, trial: &Trial) -> bool {
+    fn gains(&self, setting: &Setting, before: &[Selection], trial: &Trial) -> bool {
         let (context, state) = (setting.context, setting.state);
-        let fields = setting.selections.iter().zip(&self.selections).enumerate();
+        let fields = before.iter().zip(&self.selections).enumerate();
         fields.into_iter().any(|(pair, (had, has))| {
             let start = context.configuration(pair, &state.positions, &state.rigid);
             let latest = context.configuration(pair, &trial.positions, &trial.rigid);
             has.gains_on(had, &start, &latest)
         })
+    }
+}
+
+/// Traction fields of an increment that may be chosen again.
+#[derive(Default)]
+pub(super) struct Origin {
+    /// Fields that follow from the start alone, once others have been taken.
+    of_start: Option<Vec<Selection>>,
+    /// Pairs whose fields follow from the start and a converged state.
+    of_ends: Vec<bool>,
+}
+
+impl Origin {
+    /// Returns whether the fields depend on more than the start.
+    pub(super) fn has_reselected(&self) -> bool {
+        self.of_start.is_some()
+    }
+
+    /// Notes fields that were replaced.
+    pub(super) fn replaced(&mut self, before: Vec<Selection>) {
+        self.of_start.get_or_insert(before);
+    }
+
+    /// Returns the fields that a trial state asks for, unless they are those it has: fields of the
+    /// start, chosen again in pairs whose facets touch where these leave out nodes. They depend on
+    /// both ends of an increment and on no iteration between. A pair that a *converged* state has asked
+    /// for others does not return to those of the start: nodes at the limit of touching would
+    /// alternate.
+    pub(super) fn others(
+        &mut self,
+        setting: &Setting,
+        trial: &Trial,
+        contacts: &[Evaluation],
+        is_converged: bool,
+    ) -> Option<Selected> {
+        let context = setting.context;
+        let of_start = self.of_start.as_deref().unwrap_or(setting.selections);
+        let serves = |(pair, field): (usize, &Selection)| {
+            let state = setting.state;
+            // The search adds what has worn by itself.
+            let start = context.configuration(pair, &state.positions, &state.rigid);
+            let latest = context.configuration(pair, &trial.positions, &trial.rigid);
+            let is_of_ends = self.of_ends.get(pair).is_some_and(|of_ends| *of_ends);
+            !is_of_ends && field.left_out(&start, &latest).is_empty()
+        };
+        let serve: Vec<bool> = of_start.iter().enumerate().map(serves).collect();
+        let all_serve = serve.iter().all(|serves| *serves);
+        if all_serve && self.of_start.is_none() {
+            return None;
+        }
+        let again = (!all_serve).then(|| reselected(setting, of_start, &serve, trial, contacts));
+        // What other pairs hold asks for no other fields.
+        let again = again
+            .filter(|again| self.of_ends.contains(&true) || again.gains(setting, of_start, trial));
+        let found = again.unwrap_or_else(|| fitting(of_start.to_vec(), setting, trial, contacts));
+        if is_converged {
+            self.of_ends.resize(serve.len(), false);
+            for (of_ends, serves) in self.of_ends.iter_mut().zip(&serve) {
+                *of_ends |= !serves;
+            }
+        }
+        (!found.are(setting.selections)).then_some(found)
     }
 }
 
@@ -156,27 +233,26 @@ fn compete<'a>(
     }
 }
 
-/// The fields chosen again with the contacts of a trial state. Pairs that carry all that met keep
-/// theirs, but for nodes that another pair needs at the same positions: nothing else that happens in
-/// one bears on the discretisation of another.
-pub(super) fn reselected(setting: &Setting, trial: &Trial, contacts: &[Evaluation]) -> Selected {
+/// The fields of the start in pairs that these serve, and in the others those chosen with the contacts
+/// of a trial state. A pair that is served loses nodes that another pair needs at the same positions,
+/// and no more: nothing else that happens in one bears on the discretisation of another.
+fn reselected(
+    setting: &Setting,
+    of_start: &[Selection],
+    serve: &[bool],
+    trial: &Trial,
+    contacts: &[Evaluation],
+) -> Selected {
     let context = setting.context;
+    let worn = |pair: usize| deepest(&of_start[pair].worn);
     let start = |pair: usize| {
-        let (state, worn) = (setting.state, deepest(&setting.selections[pair].worn));
-        let start = context.configuration(pair, &state.positions, &state.rigid);
-        start.worn(worn)
-    };
-    let latest = |pair| context.configuration(pair, &trial.positions, &trial.rigid);
-    let latest_worn = |pair: usize| latest(pair).worn(deepest(&setting.selections[pair].worn));
-    let carries_all = |(pair, had): (usize, &Selection)| {
-        // The search adds what has worn by itself.
         let state = setting.state;
         let start = context.configuration(pair, &state.positions, &state.rigid);
-        had.left_out(&start, &latest(pair)).is_empty()
+        start.worn(worn(pair))
     };
-    let pairs = setting.selections.iter().enumerate();
-    let settled: Vec<bool> = pairs.clone().map(carries_all).collect();
-    let again = |(pair, of): (usize, &Selection)| match settled[pair] {
+    let latest = |pair| context.configuration(pair, &trial.positions, &trial.rigid);
+    let latest_worn = |pair: usize| latest(pair).worn(worn(pair));
+    let again = |(pair, of): (usize, &Selection)| match serve[pair] {
         // Directions of friction depend on the fields of all pairs.
         true => Selection {
             slip_freedoms: Vec::new(),
@@ -190,14 +266,15 @@ pub(super) fn reselected(setting: &Setting, trial: &Trial, contacts: &[Evaluatio
             ..Selection::new(
                 &start(pair),
                 Some(&latest_worn(pair)),
-                &of.kept_nodes(),
+                &setting.selections[pair].kept_nodes(),
                 &context.fixed_on_pair[pair],
             )
         },
     };
-    let mut selections: Vec<Selection> = pairs.map(again).collect();
-    let worn = |pair| Some(latest_worn(pair));
-    compete(context, &mut selections, start, worn);
+    let mut selections: Vec<Selection> = of_start.iter().enumerate().map(again).collect();
+    compete(context, &mut selections, start, |pair| {
+        Some(latest_worn(pair))
+    });
     let nodes: Vec<_> = contacts.iter().map(|contact| &contact.nodes).collect();
     let ends = (setting.state, setting.imposed);
     restrict(context, ends, &mut selections, latest, &nodes);
@@ -205,7 +282,7 @@ pub(super) fn reselected(setting: &Setting, trial: &Trial, contacts: &[Evaluatio
 }
 
 /// Fields with unknowns that continue those of a trial state.
-pub(super) fn fitting(
+fn fitting(
     selections: Vec<Selection>,
     setting: &Setting,
     trial: &Trial,

@@ -21,7 +21,7 @@ fn what_touches_in_an_iteration_alone_leaves_no_trace() {
         for (increment, (all, named)) in all.iter().zip(named).enumerate() {
             // Of forces of some 500; 9e-4 where the trace is left.
             assert!(
-                (all - named).abs() < 1e-6,
+                (all - named).abs() < 1e-7,
                 "increment {increment}: {all} for {named}"
             );
         }
