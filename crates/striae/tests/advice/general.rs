@@ -1,52 +1,21 @@
 //! Contact of everything is warned of as pairs with names are.
 
-use std::path::Path;
-
 use striae::{
     advice::{Advice, Topic},
-    deck::{self, Deck, Faults},
+    deck::{Deck, Faults},
 };
 
-/// A pad on a floor, and no names of surfaces.
-const DECK: &str = r#"
-title = "A pad on a floor"
+use super::{COULOMB, PRESSED};
 
-[[material]]
-name = "rubber"
-law = "neo-hookean"
-youngs_modulus = 1e6
-poissons_ratio = 0.3
-
-[[body]]
-name = "pad"
-material = "rubber"
-mesh = { generator = "block", size = [1, 1, 1], divisions = [3, 3, 3] }
-
-[[rigid]]
-name = "floor"
-plane = { point = [0, 0, 0], normal = [0, 0, 1] }
-
-[contact]
+/// Contact without names of surfaces.
+const EVERYTHING: &str = r#"[contact]
 all = true
-friction = { law = "coulomb", mu = 0.3 }
-
-[[step]]
-name = "press"
-displacement = [{ body = "pad", nodes = "zmax", x = 0, y = 0, z = -0.02 }]
-"#;
-
-const PRESSED: &str =
-    r#"displacement = [{ body = "pad", nodes = "zmax", x = 0, y = 0, z = -0.02 }]"#;
-const COULOMB: &str = r#"friction = { law = "coulomb", mu = 0.3 }"#;
+friction = { law = "coulomb", mu = 0.3 }"#;
 const PLANE: &str = "plane = { point = [0, 0, 0], normal = [0, 0, 1] }";
 
 /// The deck with passages replaced.
 fn read(passages: &[[&str; 2]]) -> Result<Deck, Faults> {
-    let text = passages.iter().fold(DECK.to_owned(), |text, [old, new]| {
-        assert_eq!(text.matches(old).count(), 1, "`{old}`");
-        text.replace(old, new)
-    });
-    deck::parse(&text, "deck.toml", Path::new(""))
+    super::read(EVERYTHING, passages)
 }
 
 fn advice(passages: &[[&str; 2]]) -> Advice {
@@ -150,7 +119,7 @@ fn flat_faces_are_not_curved() {
         "{notes:?}"
     );
     let cap = "mesh = { generator = \"capped-block\", size = [10, 10], height = 5, radius = 10, element_size = 2.5 }";
-    let block = "mesh = { generator = \"block\", size = [1, 1, 1], divisions = [3, 3, 3] }";
+    let block = "mesh = { generator = \"block\", origin = [0, 0, 0], size = [1, 1, 1], divisions = [3, 3, 3] }";
     let pressed = PRESSED.replace("0.02", "0.1");
     let notes = advice(&[[block, cap], [PRESSED, &pressed]]).notes;
     let words = "nodes touch the plane; pressures of a curved contact";

@@ -2,57 +2,26 @@
 //!
 //! Longer than other files, as it lists all mistakes that are found.
 
-use std::path::Path;
-
 use striae::{
     advice::{Advice, Topic},
-    deck::{self, Deck, Faults},
+    deck::{Deck, Faults},
 };
 
-/// A pad on a floor without a mistake.
-const DECK: &str = r#"
-title = "A pad on a floor"
+use super::{COULOMB, PRESSED};
 
-[[material]]
-name = "rubber"
-law = "neo-hookean"
-youngs_modulus = 1e6
-poissons_ratio = 0.3
-
-[[body]]
-name = "pad"
-material = "rubber"
-mesh = { generator = "block", origin = [0, 0, 0], size = [1, 1, 1], divisions = [3, 3, 3] }
-
-[[rigid]]
-name = "floor"
-plane = { point = [0, 0, 0], normal = [0, 0, 1] }
-
-[[pair]]
+/// Contact of the pad with the floor.
+const PAIR: &str = r#"[[pair]]
 name = "sole"
 a = { body = "pad", facets = "zmin" }
 b = { rigid = "floor" }
-friction = { law = "coulomb", mu = 0.3 }
-
-[[step]]
-name = "press"
-displacement = [{ body = "pad", nodes = "zmax", x = 0, y = 0, z = -0.02 }]
-"#;
-
-const PRESSED: &str =
-    r#"displacement = [{ body = "pad", nodes = "zmax", x = 0, y = 0, z = -0.02 }]"#;
+friction = { law = "coulomb", mu = 0.3 }"#;
 const LOADED: &str = r#"pressure = [{ body = "pad", facets = "zmax", value = 10 }]"#;
 const PAD: &str = "origin = [0, 0, 0], size = [1, 1, 1], divisions = [3, 3, 3]";
-const COULOMB: &str = r#"friction = { law = "coulomb", mu = 0.3 }"#;
 const FLOOR: &str = r#"b = { rigid = "floor" }"#;
 
 /// The deck with passages replaced.
 fn read(passages: &[[&str; 2]]) -> Result<Deck, Faults> {
-    let text = passages.iter().fold(DECK.to_owned(), |text, [old, new]| {
-        assert_eq!(text.matches(old).count(), 1, "`{old}`");
-        text.replace(old, new)
-    });
-    deck::parse(&text, "deck.toml", Path::new(""))
+    super::read(PAIR, passages)
 }
 
 fn advice(passages: &[[&str; 2]]) -> Advice {
