@@ -61,6 +61,8 @@ impl Selected {
 pub(super) struct Origin {
     /// Fields that follow from the start alone, once others have been taken.
     of_start: Option<Vec<Selection>>,
+    /// `true` where the present fields are those again.
+    has_returned: bool,
     /// Pairs whose fields follow from the start and a converged state.
     of_ends: Vec<bool>,
 }
@@ -68,7 +70,7 @@ pub(super) struct Origin {
 impl Origin {
     /// Returns whether the fields depend on more than the start.
     pub(super) fn has_reselected(&self) -> bool {
-        self.of_start.is_some()
+        self.of_start.is_some() && !self.has_returned
     }
 
     /// Notes fields that were replaced.
@@ -107,6 +109,7 @@ impl Origin {
         // What other pairs hold asks for no other fields.
         let again = again
             .filter(|again| self.of_ends.contains(&true) || again.gains(setting, of_start, trial));
+        self.has_returned = again.is_none();
         let found = again.unwrap_or_else(|| fitting(of_start.to_vec(), setting, trial, contacts));
         if is_converged {
             self.of_ends.resize(serve.len(), false);
