@@ -35,6 +35,7 @@
 
 mod following;
 mod gram;
+mod remainder;
 
 use std::collections::BTreeMap;
 

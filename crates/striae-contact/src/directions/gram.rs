@@ -1,15 +1,15 @@
 //! Elimination of columns, and the contest for what is left.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::{
+    cmp::{Ordering, Reverse},
+    collections::{BTreeSet, BinaryHeap},
+};
 
 use nalgebra::{DMatrix, DVector, Matrix2, SymmetricEigen, Vector2};
 use striae_mesh::Vec3;
 
-use super::DETERMINED;
-use crate::{
-    moved_pair::{Column, product},
-    slip_freedom::SlipFreedom,
-};
+use super::{DETERMINED, remainder::Remainder};
+use crate::{moved_pair::Column, slip_freedom::SlipFreedom};
 
 /// Difference of eigenvalues below which the first of two nodes goes first, over them.
 const EQUAL: f64 = 1e-9;
@@ -49,11 +49,10 @@ impl Node {
     }
 
     /// Fills in what pressures leave, by the products of all contested columns.
-    fn look(&mut self, products: &DMatrix<f64>, place: &BTreeMap<u32, usize>) {
+    fn look(&mut self, products: &Remainder) {
         for (a, at_a) in &self.contested {
             for (b, at_b) in &self.contested {
-                let product = products[(place[at_a], place[at_b])];
-                self.beside_pressures += a * b.transpose() * product;
+                self.beside_pressures += a * b.transpose() * products.entry(*at_a, *at_b);
             }
         }
     }
@@ -96,136 +95,137 @@ impl Gram {
 
     /// Decides which contested directions are kept.
     pub(super) fn contest(&self, nodes: &mut [Node]) {
-        let contested: Vec<u32> = nodes
-            .iter()
-            .flat_map(|node| node.contested.iter().map(|(_, column)| *column))
-            .collect();
+        let contested = nodes.iter().flat_map(|node| &node.contested);
+        let contested: Vec<u32> = contested.map(|(_, column)| *column).collect();
         if contested.is_empty() {
             return;
         }
-        let [beside_pressures, mut remainder] = self.remainders(&contested);
-        let place: BTreeMap<u32, usize> = contested.iter().copied().zip(0..).collect();
-        nodes
-            .iter_mut()
-            .for_each(|node| node.look(&beside_pressures, &place));
+        let columns: Vec<&Column> = self.columns.iter().collect();
+        let mut remainder = Remainder::new(&columns);
+        let near = self.near(&contested, &remainder);
+        let concerned: BTreeSet<u32> = near.iter().chain(&contested).copied().collect();
+        remainder.restrict(&concerned);
+        let diagonal = near.iter().map(|&at| remainder.entry(at, at));
+        let shift = DEPENDENT * diagonal.fold(0.0, f64::max);
+        near.iter().for_each(|&at| remainder.shift(at, shift));
+        let pressures = near.partition_point(|&at| self.turns[at as usize] == Turn::Pressure);
+        let (pressures, undisturbed) = near.split_at(pressures);
+        let eliminate = |remainder: &mut Remainder, part: &[u32]| {
+            for &at in part {
+                remainder.eliminate(&[(at, 1.0)]);
+                remainder.forget(at);
+            }
+        };
+        eliminate(&mut remainder, pressures);
+        nodes.iter_mut().for_each(|node| node.look(&remainder));
+        eliminate(&mut remainder, undisturbed);
         for closed in [true, false] {
             let of_part = |node: &&mut Node| node.is_closed == closed && !node.contested.is_empty();
             let mut left: Vec<&mut Node> = nodes.iter_mut().filter(of_part).collect();
-            while let Some((at, direction)) = largest(&left, &remainder, &place) {
+            let mut queue = Queue::new(&left, &remainder);
+            while let Some((at, direction)) = queue.largest(&left, &remainder) {
                 let node = &mut left[at];
-                eliminate(&mut remainder, node, &direction, &place);
-                let kept = node
-                    .contested
-                    .iter()
-                    .zip(direction.iter())
-                    .map(|((along, _), by)| along * *by)
-                    .sum();
+                let columns = node.contested.iter().zip(direction.iter());
+                let by_columns: Vec<(u32, f64)> =
+                    columns.clone().map(|((_, at), by)| (*at, *by)).collect();
+                remainder.eliminate(&by_columns);
+                let kept = columns.map(|((along, _), by)| along * *by).sum();
                 node.kept.push(kept);
+                queue.push(at, largest(node, &remainder).0);
             }
         }
     }
 
-    /// Products of the contested columns after elimination of the pressures near them, and of
-    /// undisturbed friction, too.
-    fn remainders(&self, contested: &[u32]) -> [DMatrix<f64>; 2] {
-        let mut users: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
-        for (at, column) in self
-            .columns
-            .iter()
-            .enumerate()
-            .filter(|(at, _)| self.turns[*at] != Turn::Contested)
-        {
-            for number in column.keys() {
-                users.entry(*number).or_default().push(at as u32);
-            }
-        }
+    /// Pressures and then undisturbed friction that are at most [`REACH`] couplings away.
+    fn near(&self, contested: &[u32], products: &Remainder) -> Vec<u32> {
         let mut near = BTreeSet::new();
         let mut rim: Vec<u32> = contested.to_vec();
         for _ in 0..REACH {
-            let mut found = BTreeSet::new();
-            for &at in &rim {
-                let of = |number: &u32| users.get(number).into_iter().flatten().copied();
-                let candidates: BTreeSet<u32> =
-                    self.columns[at as usize].keys().flat_map(of).collect();
-                found.extend(candidates.into_iter().filter(|&other| {
-                    !near.contains(&other) && self.product(at, other).abs() > APART
-                }));
-            }
-            near.extend(found.iter().copied());
-            rim = found.into_iter().collect();
+            let coupled = rim.iter().flat_map(|&at| products.row(at));
+            let coupled = coupled.filter(|(_, product)| product.abs() > APART);
+            let others = coupled.filter(|(at, _)| self.turns[*at as usize] != Turn::Contested);
+            let found: BTreeSet<u32> = others.map(|(at, _)| *at).collect();
+            rim = found.difference(&near).copied().collect();
+            near.extend(rim.iter().copied());
         }
         let mut near: Vec<u32> = near.into_iter().collect();
         near.sort_by_key(|&at| (self.turns[at as usize], at));
-        let pressures = near.partition_point(|&at| self.turns[at as usize] == Turn::Pressure);
-        let between = |rows: &[u32], columns: &[u32]| {
-            DMatrix::from_fn(rows.len(), columns.len(), |i, j| {
-                self.product(rows[i], columns[j])
-            })
-        };
-        let own = between(contested, contested);
-        let mut eliminated = between(&near, &near);
-        let shift = DEPENDENT * eliminated.diagonal().iter().copied().fold(0.0, f64::max);
-        (0..near.len()).for_each(|at| eliminated[(at, at)] += shift);
-        match eliminated.cholesky() {
-            Some(factor) if !near.is_empty() => {
-                let solved = factor
-                    .l_dirty()
-                    .solve_lower_triangular(&between(&near, contested))
-                    .unwrap_or_else(|| DMatrix::zeros(near.len(), contested.len()));
-                let of_pressures = solved.rows_range(..pressures);
-                let others = solved.rows_range(pressures..);
-                let beside_pressures = own - of_pressures.tr_mul(&of_pressures);
-                let remainder = &beside_pressures - others.tr_mul(&others);
-                [beside_pressures, remainder]
+        near
+    }
+}
+
+/// The largest eigenvalue of the remainder of a node, and its eigenvector by its contested
+/// directions.
+fn largest(node: &Node, remainder: &Remainder) -> (f64, DVector<f64>) {
+    let at = |i: usize| node.contested[i].1;
+    let count = node.contested.len();
+    let block = DMatrix::from_fn(count, count, |i, j| remainder.entry(at(i), at(j)));
+    let eigen = SymmetricEigen::new(block);
+    let (most, value) = eigen.eigenvalues.argmax();
+    (value, eigen.eigenvectors.column(most).into())
+}
+
+/// Nodes by their largest eigenvalues. These only fall, so that old ones are bounds.
+struct Queue(BinaryHeap<(Value, Reverse<usize>)>);
+
+/// An eigenvalue, in a total order.
+#[derive(Clone, Copy, PartialEq)]
+struct Value(f64);
+
+impl Eq for Value {}
+
+impl PartialOrd for Value {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Value {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.0.total_cmp(&other.0)
+    }
+}
+
+impl Queue {
+    fn new(nodes: &[&mut Node], remainder: &Remainder) -> Self {
+        let mut queue = Self(BinaryHeap::with_capacity(nodes.len()));
+        for (at, node) in nodes.iter().enumerate() {
+            queue.push(at, largest(node, remainder).0);
+        }
+        queue
+    }
+
+    /// Queues a node up if its eigenvalue determines anything.
+    fn push(&mut self, at: usize, value: f64) {
+        if value >= DETERMINED {
+            self.0.push((Value(value), Reverse(at)));
+        }
+    }
+
+    /// Takes the node with the largest eigenvalue, of equal ones the first, and its eigenvector.
+    fn largest(
+        &mut self,
+        nodes: &[&mut Node],
+        remainder: &Remainder,
+    ) -> Option<(usize, DVector<f64>)> {
+        let mut equals: Vec<(usize, f64)> = Vec::new();
+        while let Some((Value(bound), Reverse(at))) = self.0.pop() {
+            let most = equals.iter().map(|(_, value)| *value).fold(0.0, f64::max);
+            if bound * (1.0 + EQUAL) < most {
+                self.push(at, bound);
+                break;
             }
-            Some(_) | None => [own.clone(), own],
+            let value = largest(nodes[at], remainder).0;
+            if value < bound {
+                self.push(at, value);
+            } else {
+                equals.push((at, value));
+            }
         }
-    }
-
-    fn product(&self, a: u32, b: u32) -> f64 {
-        product(&self.columns[a as usize], &self.columns[b as usize])
-    }
-}
-
-/// The node with the largest eigenvalue of its remainder, if that determines anything, and the
-/// eigenvector by its contested directions.
-fn largest(
-    nodes: &[&mut Node],
-    remainder: &DMatrix<f64>,
-    place: &BTreeMap<u32, usize>,
-) -> Option<(usize, DVector<f64>)> {
-    let mut best: Option<(f64, usize, DVector<f64>)> = None;
-    for (at, node) in nodes.iter().enumerate() {
-        let rows: Vec<usize> = node
-            .contested
-            .iter()
-            .map(|(_, column)| place[column])
-            .collect();
-        let block = DMatrix::from_fn(rows.len(), rows.len(), |i, j| remainder[(rows[i], rows[j])]);
-        let eigen = SymmetricEigen::new(block);
-        let (most, value) = eigen.eigenvalues.argmax();
-        let threshold = best
-            .as_ref()
-            .map_or(DETERMINED, |best| best.0 * (1.0 + EQUAL));
-        if value >= threshold {
-            best = Some((value, at, eigen.eigenvectors.column(most).into()));
+        let first = equals.iter().map(|(at, _)| *at).min()?;
+        for (at, value) in equals.into_iter().filter(|(at, _)| *at != first) {
+            self.push(at, value);
         }
+        Some((first, largest(nodes[first], remainder).1))
     }
-    best.map(|(_, at, direction)| (at, direction))
-}
-
-/// Takes a direction of a node out of the remainder.
-fn eliminate(
-    remainder: &mut DMatrix<f64>,
-    node: &Node,
-    direction: &DVector<f64>,
-    place: &BTreeMap<u32, usize>,
-) {
-    let mut column = DVector::zeros(remainder.nrows());
-    for ((_, at), by) in node.contested.iter().zip(direction.iter()) {
-        column += remainder.column(place[at]) * *by;
-    }
-    let rows = node.contested.iter().zip(direction.iter());
-    let pivot: f64 = rows.map(|((_, at), by)| by * column[place[at]]).sum();
-    remainder.ger(-1.0 / pivot, &column, &column, 1.0);
 }
