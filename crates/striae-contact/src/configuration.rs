@@ -1,5 +1,7 @@
 //! Configuration of the two sides of a pair: positions, normals and search trees.
 
+use std::sync::OnceLock;
+
 use striae_mesh::{FacetId, Vec3};
 use striae_surface::{
     node::SurfaceNode,
@@ -11,8 +13,15 @@ use crate::{
     pair::{ContactPair, Enclosure, Geometry, local_sizes},
     placement::Placement,
     search::{Bounds, Tree},
+    segment::{FACING, ON_EDGE},
     side::Side,
 };
+
+/// Part of the root of the area of a facet by which segments may stand out of both facets together.
+///
+/// Corners count as on edges that they are [`ON_EDGE`] away from, seen along the normal of the pair,
+/// to which facets stand with a cosine of `-FACING` at least.
+pub(crate) const BEYOND: f64 = 2.0 * ON_EDGE / -FACING;
 
 /// Both sides of a pair in one configuration.
 #[derive(Clone, Debug)]
@@ -44,10 +53,10 @@ pub struct Snapshot<'a> {
     pub sizes: Vec<f64>,
     /// The largest of them.
     pub largest_size: f64,
-    /// Tree over the facets.
-    pub tree: Tree,
-    /// Tree over the boundary edges.
-    pub edge_tree: Tree,
+    /// Tree over the facets, once it was asked for.
+    tree: OnceLock<Tree>,
+    /// Tree over the boundary edges, once it was asked for.
+    edge_tree: OnceLock<Tree>,
     /// Skin that the surface is part of, where it was asked for.
     pub enclosed: Option<Enclosed<'a>>,
 }
@@ -61,8 +70,8 @@ pub struct Enclosed<'a> {
     pub x: Vec<Vec3>,
     /// Local facet size at every node.
     pub sizes: Vec<f64>,
-    /// Tree over the facets.
-    pub tree: Tree,
+    /// Tree over the facets, once it was asked for.
+    tree: OnceLock<Tree>,
 }
 
 impl<'a> Configuration<'a> {
@@ -170,8 +179,27 @@ impl<'a> Configuration<'a> {
     /// Distance within which the node looks for the other side: half the local facet size
     /// or, where that is larger, the search distance of the pair, and what has worn off.
     pub fn reach(&self, side: Side, node: SurfaceNode) -> f64 {
-        let least = 0.5 * self.side(side).sizes[node];
-        self.pair.search_distance.unwrap_or(0.0).max(least) + self.worn
+        self.reach_of(self.side(side).sizes[node])
+    }
+
+    /// Returns whether the sides are so far apart that none of their facets face each other within
+    /// their reach and a depth.
+    pub fn is_apart(&self, depth: f64) -> bool {
+        let sides = self.pair.deformable_sides().iter();
+        let reaches = sides.map(|&side| self.reach_of(self.side(side).largest_size));
+        let reach = reaches.fold(0.0, f64::max);
+        let own = &self.side(Side::A).x;
+        if let Some((point, normal)) = self.plane() {
+            return own.iter().all(|x| (x - point).dot(&normal) > reach);
+        }
+        let [own, facing] =
+            [own, &self.facing(Side::A).x].map(|x| Bounds::around(x.iter().copied()));
+        let beyond = BEYOND * (own.high - own.low).norm();
+        !own.inflated(reach + depth + beyond).meets(&facing)
+    }
+
+    fn reach_of(&self, size: f64) -> f64 {
+        self.pair.search_distance.unwrap_or(0.0).max(0.5 * size) + self.worn
     }
 
     /// Local facet size at a node of a deformable side.
@@ -197,9 +225,15 @@ impl<'a> Enclosed<'a> {
         Self {
             enclosure,
             sizes: local_sizes(surface, &x),
-            tree: facet_tree(surface, &x),
+            tree: OnceLock::new(),
             x,
         }
+    }
+
+    /// Tree over the facets.
+    pub fn tree(&self) -> &Tree {
+        let surface = &self.enclosure.surface;
+        self.tree.get_or_init(|| facet_tree(surface, &self.x))
     }
 }
 
@@ -212,21 +246,33 @@ fn facet_tree(surface: &Surface, x: &[Vec3]) -> Tree {
 
 impl<'a> Snapshot<'a> {
     fn new(surface: &'a Surface, x: Vec<Vec3>) -> Self {
-        let edge_boxes = surface
-            .boundary_edges()
-            .iter()
-            .map(|edge| Bounds::around(edge.nodes.map(|n| x[n])));
         let sizes = local_sizes(surface, &x);
         Self {
             surface,
             normals: nodal_normals(surface, &x),
             largest_size: sizes.iter().copied().fold(0.0, f64::max),
             sizes,
-            tree: facet_tree(surface, &x),
-            edge_tree: Tree::new(edge_boxes.collect()),
+            // Of most pairs in contact of everything the sides are far apart, and nothing is
+            // searched for.
+            tree: OnceLock::new(),
+            edge_tree: OnceLock::new(),
             enclosed: None,
             x,
         }
+    }
+
+    /// Tree over the facets.
+    pub fn tree(&self) -> &Tree {
+        self.tree.get_or_init(|| facet_tree(self.surface, &self.x))
+    }
+
+    /// Tree over the boundary edges.
+    pub fn edge_tree(&self) -> &Tree {
+        self.edge_tree.get_or_init(|| {
+            let edges = self.surface.boundary_edges().iter();
+            let boxes = edges.map(|edge| Bounds::around(edge.nodes.map(|n| self.x[n])));
+            Tree::new(boxes.collect())
+        })
     }
 
     /// Surface-local corners of a facet.

@@ -57,12 +57,16 @@ impl Configuration<'_> {
         let snapshot = self.side(side);
         let edges = snapshot.surface.boundary_edges();
         let around = Bounds::around([*x]).inflated(distance);
-        snapshot.edge_tree.meeting(&around).into_iter().any(|edge| {
-            let [a, b] = edges[edge as usize].nodes.map(|node| snapshot.x[node]);
-            let along = b - a;
-            let share = (along.dot(&(x - a)) / along.norm_squared()).clamp(0.0, 1.0);
-            (a + along * share - x).norm() <= distance
-        })
+        snapshot
+            .edge_tree()
+            .meeting(&around)
+            .into_iter()
+            .any(|edge| {
+                let [a, b] = edges[edge as usize].nodes.map(|node| snapshot.x[node]);
+                let along = b - a;
+                let share = (along.dot(&(x - a)) / along.norm_squared()).clamp(0.0, 1.0);
+                (a + along * share - x).norm() <= distance
+            })
     }
 
     fn cut(
@@ -90,7 +94,7 @@ impl Configuration<'_> {
                 && self.facets_may_face(side, [facet, *covering], away)
         };
         let facets: Vec<FacetId> = other
-            .tree
+            .tree()
             .meeting(bounds)
             .into_iter()
             .map(FacetId)

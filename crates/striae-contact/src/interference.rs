@@ -270,7 +270,7 @@ fn located(surface: &Surface, spot: Spot, x: impl Fn(SurfaceNode) -> Vec3) -> Ve
 fn skin<'a>(enclosed: &'a Enclosed) -> Placed<'a, impl Fn(SurfaceNode) -> Vec3 + 'a> {
     Placed {
         surface: &enclosed.enclosure.surface,
-        tree: &enclosed.tree,
+        tree: enclosed.tree(),
         x: |node| enclosed.x[node],
     }
 }
@@ -279,7 +279,7 @@ fn skin<'a>(enclosed: &'a Enclosed) -> Placed<'a, impl Fn(SurfaceNode) -> Vec3 +
 fn placed<'a>(snapshot: &'a Snapshot) -> Placed<'a, impl Fn(SurfaceNode) -> Vec3 + 'a> {
     Placed {
         surface: snapshot.surface,
-        tree: &snapshot.tree,
+        tree: snapshot.tree(),
         x: |node| snapshot.x[node],
     }
 }
@@ -341,7 +341,7 @@ fn depth_inside(stage: &Stage, side: Side, spot: Spot) -> Option<Nearest> {
     let other = stage.configuration.side(side.opposite());
     let thickness = &stage.thickness.0[side.opposite()];
     let most = stage.thickness.largest(side.opposite());
-    let near = other.tree.bounds()?.squared_distance(&x) <= most * most;
+    let near = other.tree().bounds()?.squared_distance(&x) <= most * most;
     let nearest = near.then(|| nearest_of(other, &x))??;
     // Behind a part of a skin is its own body; only what faces a facet has come through it.
     let faces = || {

@@ -252,6 +252,9 @@ fn of_facets<T: Send>(
     wanted: impl Fn(FacetId) -> bool + Sync,
     value: impl Fn(Vec<PairedFacets>) -> T + Sync,
 ) -> Vec<T> {
+    if configuration.is_apart(scope.depth) {
+        return Vec::new();
+    }
     let own = configuration.side(Side::A);
     let itself = configuration.pair.is_self_contact();
     let candidates = Candidates::new(configuration, scope);

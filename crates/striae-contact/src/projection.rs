@@ -62,7 +62,7 @@ pub fn project(
         Ray::Opposite => Bounds::around([*x]).inflated(reach),
     };
     let mut best: Option<(f64, Hit)> = None;
-    for item in target.tree.meeting(&bounds) {
+    for item in target.tree().meeting(&bounds) {
         let facet = FacetId(item);
         let Some(hit) = on_facet(target, facet, x, ray) else {
             continue;
@@ -119,7 +119,7 @@ pub fn nearest_edge(
     let bounds = Bounds::around([*x]).inflated(reach);
     let edges = target.surface.boundary_edges();
     let mut best: Option<(f64, Hit, [SurfaceNode; 2])> = None;
-    for item in target.edge_tree.meeting(&bounds) {
+    for item in target.edge_tree().meeting(&bounds) {
         let edge = edges[item as usize];
         let [start, end] = edge.nodes.map(|node| target.x[node] - x);
         let flat = |v: Vec3| v - n * n.dot(&v);

@@ -26,19 +26,14 @@ use striae_surface::facet::Shape;
 
 use super::{Scope, reach};
 use crate::{
-    configuration::{Configuration, Snapshot},
+    configuration::{BEYOND, Configuration, Snapshot},
     search::Bounds,
-    segment::{FACING, Facet, ON_EDGE, facet_normal},
+    segment::{FACING, Facet, facet_normal},
     side::Side,
 };
 
 /// Round-off of a cosine.
 const ROUND_OFF: f64 = 1e-9;
-/// Part of the root of the area of a facet by which segments may stand out of both facets together.
-///
-/// Corners count as on edges that they are [`ON_EDGE`] away from, seen along the normal of the pair,
-/// to which facets stand with a cosine of `-FACING` at least.
-const BEYOND: f64 = 2.0 * ON_EDGE / -FACING;
 
 /// Facets of the side that side `a` faces.
 pub(super) struct Candidates<'a> {
@@ -78,7 +73,7 @@ impl<'a> Candidates<'a> {
                 let all = (0..facing.surface.facets().len()).map(FacetId::new);
                 let facets: Vec<_> = all.map(|facet| group(configuration, facet)).collect();
                 let nodes = facing
-                    .tree
+                    .tree()
                     .joined(|facet| facets[facet as usize], Group::join);
                 (facets, nodes)
             }
@@ -115,7 +110,7 @@ impl<'a> Candidates<'a> {
             of.meets(&bounds.inflated_along(&margins))
                 && group.normals.least_along(&n) <= FACING + ROUND_OFF
         };
-        let tree = &configuration.facing(Side::A).tree;
+        let tree = configuration.facing(Side::A).tree();
         tree.found(
             |node, of| may_meet(of, &self.nodes[node]),
             |facet, of| may_meet(of, &self.facets[facet as usize]),
