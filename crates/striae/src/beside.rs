@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! DIR/deck.toml                the deck as it was when the run began
-//! DIR/law-PAIR.svg             coefficients of friction of a pair
+//! DIR/law-PAIR.svg             coefficients of friction of a pair, of several that share them the first
 //! DIR/law-PAIR-STEP.svg        those that a step changes them to
 //! DIR/law-PAIR-coefficient.svg the same over what else they depend on
 //! ```
@@ -10,7 +10,7 @@
 use std::path::Path;
 
 use striae_files::{read_text, write_atomically};
-use striae_law::friction::{Analysis, Law};
+use striae_law::friction::{Analysis, Friction, Law};
 use striae_solve::model::Model;
 
 use crate::{
@@ -38,6 +38,7 @@ pub(crate) fn write(recording: &Recording, model: &Model) -> Result<(), Error> {
 /// # Errors
 /// When a file cannot be written.
 pub fn write_frictions(folder: &Path, model: &Model) -> Result<(), Error> {
+    let mut drawn: Vec<&Friction> = Vec::new();
     for named in frictions(model) {
         let angles: &[f64] = match named.friction.law() {
             Law::Frictionless => continue,
@@ -45,6 +46,10 @@ pub fn write_frictions(folder: &Path, model: &Model) -> Result<(), Error> {
             Law::TwoTextures(_) => &ANGLES,
             _ => &ANGLES[..1],
         };
+        if drawn.contains(&named.friction) {
+            continue;
+        }
+        drawn.push(named.friction);
         let analyses: Vec<Analysis> = (angles.iter())
             .map(|angle| Analysis::new(named.friction, angle.to_radians(), SAMPLES))
             .collect();
