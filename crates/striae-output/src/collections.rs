@@ -4,7 +4,9 @@
 use std::path::{Path, PathBuf};
 
 use striae_contact::{side::Side, unknowns::NodeResult};
-use striae_solve::{problem::Problem, report::tie_tractions, state::State};
+use striae_solve::{
+    interference::configuration, problem::Problem, report::tie_tractions, state::State,
+};
 
 use crate::{
     Output, OutputError,
@@ -159,7 +161,8 @@ impl Collections {
         let time = state.time;
         let mut parts = Vec::new();
         let names = Parts::new(problem).contact;
-        for pair in 0..problem.pairs.len() {
+        let pairs = 0..problem.pairs.len();
+        for pair in pairs.filter(|&pair| meets(problem, state, pair, contact)) {
             for side in Side::BOTH {
                 let Some(body) = problem.pairs[pair].bodies[side] else {
                     continue;
@@ -212,4 +215,18 @@ impl Collections {
         }
         self.ties.append(Snapshot { time, parts })
     }
+}
+
+/// Returns whether facets of a pair face each other, or something has slipped: contact of
+/// everything has pairs of bodies that never meet.
+fn meets(problem: &Problem, state: &State, pair: usize, contact: &Contact) -> bool {
+    let faces = match contact.elapsed > 0.0 {
+        true => state.pairs[pair]
+            .facets
+            .iter()
+            .any(|facets| !facets.is_empty()),
+        // Before the first increment nobody has looked for facets yet.
+        false => !configuration(problem, pair, state.into()).is_apart(0.0),
+    };
+    faces || contact.worn.has_slipped(pair)
 }

@@ -42,6 +42,12 @@ impl Worn {
         }
     }
 
+    /// Returns whether something of a pair has slipped under pressure.
+    pub fn has_slipped(&self, pair: usize) -> bool {
+        let sums = self.pairs.get(pair).into_iter().flatten().flatten();
+        sums.into_iter().any(|[_, slip]| *slip > 0.0)
+    }
+
     /// Sums at the nodes of a side, zero before the first increment.
     pub fn of(&self, pair: usize, side: Side, nodes: usize) -> Vec<Sums> {
         let known = self.pairs.get(pair).map(|sides| sides[side].clone());

@@ -105,9 +105,10 @@ impl Fields {
         for pair in &scene.pairs {
             let mut sides = [None, None];
             for (side, grid) in pair.sides.iter().zip(&mut sides) {
-                if side.facets.is_some() {
-                    let name = format!("contact-{}-{}", pair.name, side.owner);
-                    *grid = Some(Grid::read(&path(&name))?);
+                let path = path(&format!("contact-{}-{}", pair.name, side.owner));
+                // Pairs whose sides are out of reach have no files.
+                if side.facets.is_some() && path.exists() {
+                    *grid = Some(Grid::read(&path)?);
                 }
             }
             pairs.push(sides);

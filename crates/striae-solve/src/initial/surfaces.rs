@@ -25,8 +25,12 @@ pub fn surfaces(problem: &Problem, state: &State) -> Vec<[Vec<NodeResult>; 2]> {
 }
 
 fn of_pair(problem: &Problem, state: &State, pair: usize) -> [Vec<NodeResult>; 2] {
+    let placed = configuration(problem, pair, state.into());
+    if placed.is_apart(0.0) {
+        return state.pairs[pair].nodes.clone();
+    }
     let stage = Stage {
-        configuration: &configuration(problem, pair, state.into()),
+        configuration: &placed,
         thickness: &thickness(problem, pair, &state.positions),
     };
     let faces = Faces::new(&stage);

@@ -1,6 +1,7 @@
 //! Contact of everything: the same from Rust and from a deck, and what advice says of it.
 
 mod around_edges;
+mod assembly;
 mod beside_pairs;
 mod chosen_again;
 mod closed;
