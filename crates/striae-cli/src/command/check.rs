@@ -54,7 +54,15 @@ fn summary(deck: &Deck, advice: &Advice) -> String {
         lines.extend(body.sections.iter().map(section_line));
     }
     lines.extend(model.rigid_surfaces.iter().map(rigid_line));
-    lines.extend(model.pairs.iter().map(|pair| pair_line(pair, model)));
+    // Contact of everything has pairs of bodies that may never meet.
+    let is_near = |pair: &&Pair| {
+        let mut fits = advice.notes.iter().filter(|note| note.topic == Topic::Fit);
+        pair.is_expected_to_touch()
+            || pair.is_on_itself()
+            || fits.any(|note| note.name.as_ref() == Some(&pair.name))
+    };
+    let near = model.pairs.iter().filter(is_near);
+    lines.extend(near.map(|pair| pair_line(pair, model)));
     lines.extend((0..model.steps.len()).map(|step| step_line(model, step)));
     lines.extend(notes.iter().map(|note| format!("note: {note}")));
     for (class, remarks) in [

@@ -123,6 +123,8 @@ impl Common {
 
 /// Most threads; more than any machine serves only slow a run down.
 const MOST_THREADS: usize = 1024;
+/// Pairs without contact that are named.
+const NAMED: usize = 8;
 
 /// A number of threads.
 fn threads(text: &str) -> Result<usize, String> {
@@ -276,10 +278,11 @@ pub fn told(summary: &Summary) -> String {
         ));
     }
     if !apart.is_empty() {
-        let names: Vec<String> = apart
-            .iter()
-            .map(|pair| format!("`{}`", pair.name))
-            .collect();
+        let names = apart.iter().take(NAMED);
+        let mut names: Vec<String> = names.map(|pair| format!("`{}`", pair.name)).collect();
+        if apart.len() > NAMED {
+            names.push(format!("and {} more pairs", apart.len() - NAMED));
+        }
         lines.push(format!("without contact: {}", names.join(", ")));
     }
     lines.join("\n") + "\n"
