@@ -28,6 +28,9 @@ pub(super) fn look(model: &Model, advice: &mut Advice) {
     }
 }
 
+/// Surfaces that a body may touch which are named.
+const NAMED: usize = 8;
+
 /// A body or a rigid surface; bodies first.
 type Owner = (bool, usize);
 
@@ -82,6 +85,7 @@ fn touching(model: &Model, advice: &mut Advice) {
     };
     for &body in &bodies {
         let (mut may, mut may_not) = (Vec::new(), Vec::new());
+        let mut is_whole = true;
         for &other in &all {
             let told = match other == body {
                 true => "itself".to_owned(),
@@ -90,8 +94,14 @@ fn touching(model: &Model, advice: &mut Advice) {
             let part = parts.get(&(body.min(other), body.max(other)));
             match part {
                 Some(part) if *part >= ALL => may.push((other, told)),
-                Some(_) => may.push((other, format!("{told} (in part)"))),
-                None => may_not.push((other, told)),
+                Some(_) => {
+                    is_whole = false;
+                    may.push((other, format!("{told} (in part)")));
+                }
+                None => {
+                    is_whole = false;
+                    may_not.push((other, told));
+                }
             }
         }
         let name = name(model, body);
@@ -99,9 +109,10 @@ fn touching(model: &Model, advice: &mut Advice) {
             true => String::new(),
             false => format!("; not {}", quoted(&may_not)),
         };
-        let may = match may.is_empty() {
-            true => "nothing".to_owned(),
-            false => quoted(&may),
+        let may = match may.as_slice() {
+            [] => "nothing".to_owned(),
+            all if all.len() > NAMED && is_whole => "all surfaces, itself included".to_owned(),
+            some => quoted(some),
         };
         advice.note(
             Topic::Contact,

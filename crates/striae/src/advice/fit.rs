@@ -17,10 +17,15 @@ const PLANE: f64 = 0.95;
 
 /// Notes how every pair fits.
 pub(super) fn look(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) {
+    let mut far = 0;
     for (index, (pair, fit)) in model.pairs.iter().zip(fits).enumerate() {
         let Some(fit) = fit.as_ref().filter(|_| !pair.is_on_itself()) else {
             continue;
         };
+        if !pair.is_expected_to_touch() && is_far(model, pair, fit) {
+            far += 1;
+            continue;
+        }
         let text = format!("pair `{}`: {}", pair.name, words(model, PairId(index), fit));
         advice.note(Topic::Fit, &pair.name, text);
         if looks_away(model, pair) || turned(model, PairId(index)).is_some() {
@@ -32,10 +37,31 @@ pub(super) fn look(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) {
             advice.warn(Topic::Facing, &pair.name, text);
         }
     }
+    if far > 0 {
+        let pairs = if far == 1 { "pair" } else { "pairs" };
+        let text = format!(
+            "contact of everything: {far} {pairs} of surfaces farther apart than their facets are wide"
+        );
+        advice.note(Topic::Fit, "", text);
+    }
     for warning in warnings_at_start(model, fits) {
         let name = warning.pair.unwrap_or_default();
         advice.warn(Topic::NeverMeets, &name, warning.text);
     }
+}
+
+/// Returns whether the sides of a pair are farther apart than their widest facet.
+fn is_far(model: &Model, pair: &Pair, fit: &Fit) -> bool {
+    let widths = pair.surfaces().map(|side| match side {
+        ContactSurface::Deformable { body, faces } => {
+            let mesh = &model.bodies[body.0].mesh;
+            let areas = faces.iter().map(|face| mesh.area_vector(*face).norm());
+            areas.fold(0.0, f64::max).sqrt()
+        }
+        ContactSurface::Rigid(_) | ContactSurface::Itself => 0.0,
+    });
+    let distance = fit.gap.as_ref().map_or(fit.distance, |gap| gap.gap);
+    fit.overlap.is_none() && distance.is_finite() && distance > widths[0].max(widths[1])
 }
 
 /// Smallest gap and deepest overlap of a pair, and where.
