@@ -12,7 +12,7 @@ use crate::{
 };
 
 /// Entry that is dropped, over the root of the diagonal entries of its row and column.
-const FADED: f64 = 1e-12;
+const FADED: f64 = 1e-10;
 
 /// A symmetric positive semi-definite matrix by rows, both halves of it.
 pub(super) struct Remainder {
