@@ -23,6 +23,7 @@ use rayon::prelude::*;
 use striae_mesh::Vec3;
 
 use crate::{
+    common_mass::SparseRow,
     configuration::Configuration,
     converged_friction::converged_friction,
     frame::{Frame, Frames},
@@ -57,7 +58,8 @@ pub fn add_to_gaps(
         let (side, node) = kept[l as usize].place();
         tractions.nodes[side][node][0]
     };
-    let given = given_pressure(selection, kinematics);
+    let touches = kinematics.iter().map(touches).collect();
+    let given = given_pressure(touches, selection.coupling(), selection.wear());
     for (k, kinematics) in kinematics.iter_mut().enumerate() {
         let row: &[(u32, f64)] = selection.coupling().get(k).map_or(&[], Vec::as_slice);
         let sum: f64 = row
@@ -100,23 +102,27 @@ pub fn add_to_gaps(
     }
 }
 
-/// Kept nodes that are given pressure: by points of their support, by the ramp from others that are,
-/// or by what wears off at these, which opens their gap.
-fn given_pressure(selection: &Selection, kinematics: &[Kinematics]) -> Vec<bool> {
-    let touches = |kinematics: &Kinematics| match &kinematics.pressure {
+/// Returns whether a kept node has pressure at points of its support.
+fn touches(kinematics: &Kinematics) -> bool {
+    match &kinematics.pressure {
         Pressure::AtNode => true,
         Pressure::AtPoints(supported) => supported.touches,
-    };
-    let mut given: Vec<bool> = kinematics.iter().map(touches).collect();
+    }
+}
+
+/// Kept nodes that are given pressure: by points of their support, by the ramp from others that are,
+/// or by what wears off at these, which opens their gap.
+fn given_pressure(touches: Vec<bool>, coupling: &[SparseRow], wear: &[SparseRow]) -> Vec<bool> {
+    let mut given = touches;
     let mut found: Vec<usize> = (0..given.len()).filter(|&k| given[k]).collect();
     while let Some(k) = found.pop() {
-        for &(l, _) in selection.coupling().get(k).into_iter().flatten() {
+        for &(l, _) in coupling.get(k).into_iter().flatten() {
             if !std::mem::replace(&mut given[l as usize], true) {
                 found.push(l as usize);
             }
         }
     }
-    let worn = selection.wear().iter();
+    let worn = wear.iter();
     let worn = worn.map(|row| row.iter().any(|&(l, _)| given[l as usize]));
     let worn: Vec<bool> = worn.collect();
     given
@@ -365,5 +371,30 @@ fn add(
     let by_weight = (before - slip.value) / weight.value;
     for (first, slope) in &weight.gradient {
         slip.jacobian.push((*first, by_weight * slope.transpose()));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn to(nodes: &[u32]) -> SparseRow {
+        nodes.iter().map(|&node| (node, 1.0)).collect()
+    }
+
+    #[test]
+    fn pressure_comes_from_points_the_ramp_and_what_wears_off() {
+        let touches = vec![true, false, false, false, false];
+        let apart = given_pressure(touches.clone(), &[], &[]);
+        assert_eq!(apart, touches);
+        // A node that has its pressure from the ramp hands it on.
+        let coupling = [to(&[0, 1]), to(&[0, 1, 2]), to(&[1, 2]), to(&[3]), to(&[4])];
+        let by_ramp = given_pressure(touches.clone(), &coupling, &[]);
+        assert_eq!(by_ramp, [true, true, true, false, false]);
+        // What wears off at node 0 opens the gap of node 3, which keeps its row; what would wear
+        // off at node 4, which is apart, opens none.
+        let wear = [to(&[0]), to(&[]), to(&[4]), to(&[0, 3]), to(&[4])];
+        let by_wear = given_pressure(touches, &[], &wear);
+        assert_eq!(by_wear, [true, false, false, true, false]);
     }
 }
