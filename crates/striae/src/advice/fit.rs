@@ -17,13 +17,13 @@ const PLANE: f64 = 0.95;
 
 /// Notes how every pair fits.
 pub(super) fn look(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) {
-    let mut far = 0;
+    let mut far = Vec::new();
     for (index, (pair, fit)) in model.pairs.iter().zip(fits).enumerate() {
         let Some(fit) = fit.as_ref().filter(|_| !pair.is_on_itself()) else {
             continue;
         };
         if !pair.is_expected_to_touch() && is_far(model, pair, fit) {
-            far += 1;
+            far.push(index);
             continue;
         }
         let text = format!("pair `{}`: {}", pair.name, words(model, PairId(index), fit));
@@ -37,12 +37,13 @@ pub(super) fn look(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) {
             advice.warn(Topic::Facing, &pair.name, text);
         }
     }
-    if far > 0 {
-        let pairs = if far == 1 { "pair" } else { "pairs" };
+    if let Some(&first) = far.first() {
+        let (count, pairs) = (far.len(), if far.len() == 1 { "pair" } else { "pairs" });
         let text = format!(
-            "contact of everything: {far} {pairs} of surfaces farther apart than their facets are wide"
+            "contact of everything: {count} {pairs} of surfaces farther apart than their facets are wide"
         );
-        advice.note(Topic::Fit, "", text);
+        let body = other_name(model, PairId(first), Side::B);
+        advice.note(Topic::Contact, body, text);
     }
     for warning in warnings_at_start(model, fits) {
         let name = warning.pair.unwrap_or_default();
