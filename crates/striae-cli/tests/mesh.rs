@@ -219,7 +219,7 @@ fn what_cannot_be_shown_is_told_in_one_line() {
         ),
         (
             &["part.step"],
-            "part.step: unknown kind of file; expected .msh (Gmsh), .inp (Abaqus), .vtu or .vtk (VTK)\n",
+            "part.step: unknown kind of file; expected .msh (Gmsh), .inp (Abaqus), .vtu or .vtk (VTK), or .stl\n",
         ),
     ] {
         let (code, out, errors) = said(folder.path(), arguments);

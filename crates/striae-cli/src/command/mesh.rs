@@ -44,6 +44,9 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     }
 }
 
+/// Endings of the files that are read.
+const KNOWN: &str = ".msh (Gmsh), .inp (Abaqus), .vtu or .vtk (VTK), or .stl";
+
 /// Content of a mesh file.
 enum Content {
     Body(Box<Reading>),
@@ -59,8 +62,13 @@ fn read(file: &Path) -> Result<Content, MeshFileError> {
         Ok(reading) => return Ok(Content::Body(Box::new(reading))),
         Err(error) => error,
     };
-    if !matches!(error.fault, MeshFileFault::Empty { .. }) {
-        return Err(error);
+    match error.fault {
+        MeshFileFault::Empty { .. } => {}
+        MeshFileFault::UnknownEnding { .. } => {
+            let fault = MeshFileFault::UnknownEnding { expected: KNOWN };
+            return Err(MeshFileError { fault, ..error });
+        }
+        _ => return Err(error),
     }
     match mesh_file::read_rigid_surface(file) {
         Ok(surface) => Ok(Content::Rigid(surface)),
