@@ -110,16 +110,6 @@ pub enum CutBack {
         /// Number of such nodes.
         count: usize,
     },
-    /// Each solution of an increment asks for other traction fields.
-    #[error(
-        "pair `{pair}`: the choice of nodes that have tractions of their own does not settle; each of {solutions} solutions of the increment asks for another one"
-    )]
-    Unsettled {
-        /// Name of the first pair whose field changes.
-        pair: String,
-        /// Number of solutions.
-        solutions: usize,
-    },
     /// Bodies have gone through each other.
     #[error("pair `{pair}`: {}", passage_text([body, other], *node, *depth, *is_prescribed))]
     Passage {

@@ -170,8 +170,10 @@ impl Attempt<'_> {
             };
             // Selections could alternate for ever between two sets of nodes.
             if repetition == REPETITIONS {
-                let missed = missed(&self.setting(), &self.trial);
-                return Err(missed.unwrap_or_else(|| self.unsettled(&found)));
+                match missed(&self.setting(), &self.trial) {
+                    Some(reason) => return Err(reason),
+                    None => break,
+                }
             }
             assembled = self.taken_up(found, workspace)?;
         }
@@ -179,15 +181,6 @@ impl Attempt<'_> {
         self.interferences = passage(&self.setting(), &self.trial, &assembled.contacts)?;
         self.overlaps = overlap(&self.setting(), &self.trial)?;
         Ok(assembled)
-    }
-
-    /// The reason that each solution asks for other traction fields.
-    fn unsettled(&self, found: &Selected) -> CutBack {
-        let pair = found.first_other(&self.selections).unwrap_or_default();
-        CutBack::Unsettled {
-            pair: self.context.problem.model.pairs[pair].name.clone(),
-            solutions: REPETITIONS + 1,
-        }
     }
 
     fn setting(&self) -> Setting<'_> {

@@ -32,16 +32,15 @@ pub(super) struct Selected {
 }
 
 impl Selected {
-    /// The first pair whose field has other kept nodes than that of others, or other weights.
-    pub(super) fn first_other(&self, others: &[Selection]) -> Option<usize> {
-        let mut fields = self.selections.iter().zip(others);
-        fields.position(|(one, other)| {
+    /// Returns whether these fields have the kept nodes of others, with the same weights.
+    fn are(&self, others: &[Selection]) -> bool {
+        self.selections.iter().zip(others).all(|(one, other)| {
             let weights = one.basis.weights.iter().zip(&other.basis.weights);
             let largest = one.basis.weights.iter().copied().fold(0.0, f64::max);
-            one.basis.kept != other.basis.kept
-                || weights
+            one.basis.kept == other.basis.kept
+                && weights
                     .into_iter()
-                    .any(|(a, b)| (a - b).abs() > SAME * largest)
+                    .all(|(a, b)| (a - b).abs() <= SAME * largest)
         })
     }
 
@@ -118,8 +117,7 @@ impl Origin {
                 *of_ends |= !serves;
             }
         }
-        let differs = found.first_other(setting.selections).is_some();
-        differs.then_some(found)
+        (!found.are(setting.selections)).then_some(found)
     }
 }
 
