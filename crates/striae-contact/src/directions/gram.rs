@@ -1,7 +1,7 @@
 //! Elimination of columns, and the contest for what is left.
 
 use std::{
-    cmp::{Ordering, Reverse},
+    cmp::Reverse,
     collections::{BTreeSet, BinaryHeap},
 };
 
@@ -165,26 +165,9 @@ fn largest(node: &Node, remainder: &Remainder) -> (f64, DVector<f64>) {
     (value, eigen.eigenvectors.column(most).into())
 }
 
-/// Nodes by their largest eigenvalues. These only fall, so that old ones are bounds.
-struct Queue(BinaryHeap<(Value, Reverse<usize>)>);
-
-/// An eigenvalue, in a total order.
-#[derive(Clone, Copy, PartialEq)]
-struct Value(f64);
-
-impl Eq for Value {}
-
-impl PartialOrd for Value {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for Value {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.0.total_cmp(&other.0)
-    }
-}
+/// Nodes by the bits of their largest eigenvalues, which are in the order of the values as none is
+/// negative. Eigenvalues only fall, so that old ones are bounds.
+struct Queue(BinaryHeap<(u64, Reverse<usize>)>);
 
 impl Queue {
     fn new(nodes: &[&mut Node], remainder: &Remainder) -> Self {
@@ -198,7 +181,7 @@ impl Queue {
     /// Queues a node up if its eigenvalue determines anything.
     fn push(&mut self, at: usize, value: f64) {
         if value >= DETERMINED {
-            self.0.push((Value(value), Reverse(at)));
+            self.0.push((value.to_bits(), Reverse(at)));
         }
     }
 
@@ -209,7 +192,8 @@ impl Queue {
         remainder: &Remainder,
     ) -> Option<(usize, DVector<f64>)> {
         let mut equals: Vec<(usize, f64)> = Vec::new();
-        while let Some((Value(bound), Reverse(at))) = self.0.pop() {
+        while let Some((bits, Reverse(at))) = self.0.pop() {
+            let bound = f64::from_bits(bits);
             let most = equals.iter().map(|(_, value)| *value).fold(0.0, f64::max);
             if bound * (1.0 + EQUAL) < most {
                 self.push(at, bound);
