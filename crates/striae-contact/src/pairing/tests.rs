@@ -168,3 +168,37 @@ fn no_pair_is_lost_by_looking_at_candidates_alone() {
     }
     assert!(near > 1000 && tried < all / 2, "{near} of {tried} of {all}");
 }
+
+/// Near facets of surfaces at growing distances are never passed over.
+#[test]
+fn sides_with_near_facets_are_not_apart() {
+    let mut random = Random::new(43);
+    let (mut near, mut apart) = (0, 0);
+    for scene in 0..800 {
+        let (a, x_a) = scattered(&mut random, 3);
+        let (b, mut x_b) = scattered(&mut random, 3);
+        let shift = random.vector3() * (0.01 * f64::from(scene));
+        x_b.iter_mut().for_each(|x| *x += shift);
+        let search_distance = (scene % 3 == 0).then_some(0.7);
+        let pair = pair_of([a, b], search_distance);
+        let at = Configuration::new(&pair, [x_a, x_b], Placement::at_rest());
+        let compliances = compliances(&at);
+        let depth = 0.1 * f64::from(scene % 4);
+        let scope = Scope {
+            compliances: &compliances,
+            depth,
+            start: None,
+        };
+        let candidates = Candidates::new(&at, scope);
+        let none = |_: &[Corners]| SegmentDerivatives::None;
+        let facets = (0..3).map(FacetId::new);
+        // Without the look at the whole sides.
+        let found =
+            facets.map(|facet| super::of_facet(&candidates, scope, &none, facet, |_| true).len());
+        let found: usize = found.sum();
+        assert!(found == 0 || !at.is_apart(depth), "{scene}");
+        near += usize::from(found > 0);
+        apart += usize::from(at.is_apart(depth));
+    }
+    assert!(near > 50 && apart > 50, "{near} near, {apart} apart");
+}

@@ -24,10 +24,10 @@ pub(super) fn look(model: &Model, fits: &[Option<Fit>], advice: &mut Advice) {
         };
         if !pair.is_expected_to_touch() && is_far(model, pair, fit) {
             far.push(index);
-            continue;
+        } else {
+            let text = format!("pair `{}`: {}", pair.name, words(model, PairId(index), fit));
+            advice.note(Topic::Fit, &pair.name, text);
         }
-        let text = format!("pair `{}`: {}", pair.name, words(model, PairId(index), fit));
-        advice.note(Topic::Fit, &pair.name, text);
         if looks_away(model, pair) || turned(model, PairId(index)).is_some() {
             let [a, b] = [Side::B, Side::A].map(|side| other_name(model, PairId(index), side));
             let text = format!(

@@ -146,6 +146,7 @@ pub fn check(
         };
         read += 1;
         fields::check(&mut findings, scene, &fields, increment);
+        table::fields(&mut findings, scene, (&history, increment), &fields);
         // Overlaps of meshes that the first step presses out are meant until it ends.
         let fading = scene.start == Start::Overlapping(Some("resolve"))
             && history.number(increment - 1, "step") == Some(1.0)

@@ -1,7 +1,7 @@
 //! Checks of the history: balances of forces and energies.
 
 use crate::scenes::{
-    output::History,
+    output::{Fields, History},
     scene::{End, Origin, Pair, Scene},
     vector::{Vector, length, plus},
 };
@@ -45,6 +45,30 @@ pub fn check(findings: &mut Findings, scene: &Scene, history: &History) {
     if !scene.is_dynamic() {
         for body in &scene.bodies {
             balance::check(findings, scene, body.name, history);
+        }
+    }
+}
+
+/// Checks that pairs with forces after an increment have fields.
+pub fn fields(
+    findings: &mut Findings,
+    scene: &Scene,
+    (history, increment): (&History, usize),
+    fields: &Fields,
+) {
+    for (pair, grids) in scene.pairs.iter().zip(&fields.pairs) {
+        let forces = sides(history, &pair.name);
+        let presses = forces
+            .get(increment - 1)
+            .is_some_and(|of| of.size(pair) > 0.0);
+        if presses && grids.iter().all(Option::is_none) {
+            let place = || {
+                format!(
+                    "pair {} has no fields after increment {increment}",
+                    pair.name
+                )
+            };
+            findings.note("contact", f64::INFINITY, place);
         }
     }
 }
