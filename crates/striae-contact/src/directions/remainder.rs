@@ -82,9 +82,10 @@ impl Remainder {
 
     /// Eliminates a direction, a combination of columns; nothing if it depends on those before.
     pub(super) fn eliminate(&mut self, direction: &[(u32, f64)]) {
-        let mut column = SparseRow::new();
+        let (mut column, mut merged) = (SparseRow::new(), SparseRow::new());
         for &(at, by) in direction {
-            column = sum(&column, by, &self.rows[at as usize]).collect();
+            merge(&column, by, &self.rows[at as usize], &mut merged, |_| true);
+            std::mem::swap(&mut column, &mut merged);
         }
         let pivot: f64 = direction
             .iter()
@@ -98,11 +99,12 @@ impl Remainder {
         column.iter_mut().for_each(|(_, value)| *value /= root);
         for &(at, value) in &column {
             let scale = FADED * self.scales[at as usize];
-            let row = &self.rows[at as usize];
-            let left = sum(row, -value, &column).filter(|&(other, value)| {
+            let row = &mut self.rows[at as usize];
+            let counts = |&(other, value): &(u32, f64)| {
                 value.abs() > scale * self.scales[other as usize] || other == at
-            });
-            self.rows[at as usize] = left.collect();
+            };
+            merge(row, -value, &column, &mut merged, counts);
+            std::mem::swap(row, &mut merged);
         }
     }
 
@@ -120,25 +122,31 @@ fn entry(row: &[(u32, f64)], column: u32) -> f64 {
         .map_or(0.0, |at| row[at].1)
 }
 
-/// Sum of a sorted row and a multiple of another one.
-fn sum<'a>(a: &'a [(u32, f64)], by: f64, b: &'a [(u32, f64)]) -> impl Iterator<Item = (u32, f64)> {
-    let (mut a, mut b) = (a.iter().peekable(), b.iter().peekable());
-    std::iter::from_fn(move || match (a.peek(), b.peek()) {
-        (Some(&&(i, x)), Some(&&(j, y))) if i == j => {
-            a.next();
-            b.next();
-            Some((i, x + by * y))
-        }
-        (Some(&&(i, x)), other) if other.is_none_or(|&&(j, _)| i < j) => {
-            a.next();
-            Some((i, x))
-        }
-        (_, Some(&&(j, y))) => {
-            b.next();
-            Some((j, by * y))
-        }
-        (_, None) => None,
-    })
+/// Writes those entries that count of the sum of a sorted row and a multiple of another one.
+fn merge(
+    a: &[(u32, f64)],
+    by: f64,
+    b: &[(u32, f64)],
+    into: &mut SparseRow,
+    counts: impl Fn(&(u32, f64)) -> bool,
+) {
+    into.clear();
+    into.reserve(a.len() + b.len());
+    let mut left = a;
+    for &(at, value) in b {
+        let before = left.iter().take_while(|(other, _)| *other < at).count();
+        into.extend(left[..before].iter().filter(|entry| counts(entry)));
+        left = &left[before..];
+        let own = match left.first() {
+            Some(&(other, own)) if other == at => {
+                left = &left[1..];
+                own
+            }
+            _ => 0.0,
+        };
+        into.extend(Some((at, own + by * value)).filter(|entry| counts(entry)));
+    }
+    into.extend(left.iter().filter(|entry| counts(entry)));
 }
 
 #[cfg(test)]
