@@ -44,7 +44,7 @@ use std::path::Path;
 use striae_law::friction::Friction;
 use striae_output::Output;
 use striae_solve::model::Model;
-use toml::de::DeTable;
+use toml::de::{DeTable, DeValue};
 
 /// A deck that has been found valid.
 #[derive(Clone, Debug)]
@@ -293,10 +293,33 @@ fn tree<'t>(text: &'t str, faults: &mut FaultList<'_>) -> Option<DeTable<'t>> {
     let (tree, errors) = DeTable::parse_recoverable(text);
     for error in &errors {
         let span = error.span().unwrap_or(0..0);
-        let message = error.message().to_owned() + decimals(text, span.start);
+        // The parser may complain of several parts of one number.
+        let (span, message) = match number_at(text, span.start) {
+            Some((place, number)) => {
+                let (found, remedy) = (&text[place.clone()], striae_declared::shown(number));
+                let message = format!("`{found}` is not how it writes a number; write {remedy}");
+                (place, message)
+            }
+            None => {
+                let message = error.message().to_owned() + decimals(text, span.start);
+                (span, message)
+            }
+        };
         faults.push(&span, FaultKind::Syntax { message });
     }
     errors.is_empty().then(|| tree.into_inner())
+}
+
+/// The number around a place that other readers know and TOML does not: `.3`, `3.`, `03`.
+fn number_at(text: &str, at: usize) -> Option<(faults::Span, f64)> {
+    let of_number = |c: char| c.is_ascii_digit() || ['+', '-', '.', 'e', 'E'].contains(&c);
+    let (before, after) = text.split_at_checked(at)?;
+    let start = before.trim_end_matches(of_number).len();
+    let end = text.len() - after.trim_start_matches(of_number).len();
+    let found = &text[start..end];
+    let number: f64 = found.parse().ok()?;
+    let is_foreign = number.is_finite() && DeValue::parse(found).is_err();
+    is_foreign.then_some((start..end, number))
 }
 
 /// A word on decimal commas, where a line that cannot be read has one.

@@ -23,6 +23,26 @@ fn syntax() {
         &[("fields_every = 2", "fields_every = 2\nfields_every = 3")],
         &["43:1: not valid TOML: duplicate key"],
     );
+    misread(
+        "syntax: list without comma",
+        &[("divisions = [4, 4, 2]", "divisions = [4 4, 2]")],
+        &["10:64: not valid TOML: string values must be quoted, expected literal string"],
+    );
+    for (number, remedy) in [
+        (".3", "0.3"),
+        ("-.3", "-0.3"),
+        ("3.", "3"),
+        ("3.e2", "300"),
+        ("03", "3"),
+    ] {
+        misread(
+            "syntax: number that other readers know",
+            &[("mu = 0.3", &format!("mu = {number}"))],
+            &[&format!(
+                "22:36: not valid TOML: `{number}` is not how it writes a number; write {remedy}"
+            )],
+        );
+    }
 }
 
 #[test]
