@@ -8,7 +8,7 @@ use super::{
     read::{At, Place, Read, TableReader, Value, described, read_table_as, unexpected},
 };
 use std::slice;
-use striae_declared::Bound;
+use striae_declared::{Bound, magnitude, shown};
 use striae_mesh::Vec3;
 use striae_model::nearest;
 use toml::de::DeValue;
@@ -125,8 +125,8 @@ impl Read for Varying {
             DeValue::String(text) if !text.trim().is_empty() && !is_expression(text) => {
                 Some(Self::Function(text.to_string()))
             }
-            number => match finite(number) {
-                Some(number) => Some(Self::Number(number)),
+            found => match finite(found) {
+                Some(_) => number(value, place, faults, &[]).map(Self::Number),
                 None => unexpected(value, place, faults, &Self::form()),
             },
         }
@@ -291,9 +291,31 @@ pub(crate) fn number(
     bounds: &'static [Bound],
 ) -> Option<f64> {
     match finite(value.get_ref()) {
-        Some(number) if bounds.iter().all(|bound| bound.admits(number)) => Some(number),
+        Some(number) if bounds.iter().all(|bound| bound.admits(number)) => {
+            within_reach(number, value, place, faults, bounds)
+        }
         _ => unexpected(value, place, faults, &Form::Number(bounds)),
     }
+}
+
+/// A number, unless its magnitude is one that cannot be computed with.
+fn within_reach(
+    number: f64,
+    value: &Value<'_>,
+    place: &Place,
+    faults: &mut FaultList<'_>,
+    bounds: &[Bound],
+) -> Option<f64> {
+    let Some(needed) = magnitude::needed(bounds, number) else {
+        return Some(number);
+    };
+    let kind = FaultKind::Unexpected {
+        place: place.to_string(),
+        expected: needed.to_owned(),
+        found: format!("{}; {}", shown(number), magnitude::ADVICE),
+    };
+    faults.push(&value.span(), kind);
+    None
 }
 
 /// A list of numbers within bounds.

@@ -320,7 +320,7 @@ fn meshes() {
             "size = [1e300, 1, 0.5], divisions = [4, 4, 2]",
         )],
         &[
-            "10:8: the mesh of body `lower` cannot be made: size is 1e300, but it must be at least 1e-100 and at most 1e100",
+            "10:39: an element of `size` in [[body]] mesh must be from 1e-50 to 1e50, but is 1e300; check its unit and its exponent",
         ],
     );
     misstated(

@@ -4,7 +4,7 @@
 
 mod deck;
 
-use deck::{faulty, misread};
+use deck::{faulty, misread, misstated};
 
 #[test]
 fn syntax() {
@@ -506,4 +506,43 @@ fn of_very_many_faults_the_first_are_shown() {
         assert!(told.ends_with(&end), "{}", &told[told.len() - 80..]);
         assert_eq!(told.matches("deck.toml:").count(), 50);
     }
+}
+
+/// Moduli, densities and durations whose squares overflow or vanish are mistakes of units.
+#[test]
+fn magnitudes() {
+    let law = "youngs_modulus = 1e6\npoissons_ratio = 0.3";
+    for (changed, number, place, key) in [
+        (law, "1e300", "5:18", "`youngs_modulus` in [[material]]"),
+        (law, "1e-300", "5:18", "`youngs_modulus` in [[material]]"),
+        (
+            "duration = 2.0",
+            "1e-320",
+            "28:12",
+            "`duration` in [[step]]",
+        ),
+    ] {
+        let value = changed
+            .split("\n")
+            .next()
+            .and_then(|line| line.split(" = ").nth(1));
+        let with = changed.replacen(value.expect("a value"), number, 1);
+        let expected = format!(
+            "{place}: {key} must be from 1e-50 to 1e50, but is {number}; check its unit and its exponent"
+        );
+        misstated(
+            "magnitude of a positive number",
+            &[(changed, &with)],
+            &[&expected],
+        );
+    }
+    misstated(
+        "moduli of another set, and a density",
+        &[(law, "lambda = -1e60\nshear_modulus = 1e60\ndensity = 1e-60")],
+        &[
+            "5:10: `lambda` in [[material]] must be at most 1e50 in magnitude, but is -1e60; check its unit and its exponent",
+            "6:17: `shear_modulus` in [[material]] must be from 1e-50 to 1e50, but is 1e60; check its unit and its exponent",
+            "7:11: `density` in [[material]] must be from 1e-50 to 1e50, but is 1e-60; check its unit and its exponent",
+        ],
+    );
 }

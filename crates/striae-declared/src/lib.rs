@@ -7,6 +7,7 @@
 //!
 //! Values are in the words of a deck: angles are in degrees.
 
+pub mod magnitude;
 mod parameter;
 mod set;
 mod terms;

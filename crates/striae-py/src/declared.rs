@@ -4,7 +4,10 @@
 use std::collections::BTreeMap;
 
 use pyo3::prelude::*;
-use striae::declared::{self, ANY, Absent, Bound, Declared, Form, Kind, Set, Value, Values, named};
+use striae::declared::{
+    self, ANY, Absent, Bound, Declared, Form, Kind, POSITIVE, Set, Value, Values, magnitude, named,
+    shown,
+};
 use striae::law::{
     bulk,
     friction::{BY_PRESSURE, BY_RATE, BY_SLIP, BY_STATE, DECAY, LAWS},
@@ -75,7 +78,22 @@ pub fn made<L: Kind>(
 ) -> PyResult<L> {
     let law = named(laws, name).ok_or_else(|| refused(place, "there is no such law"))?;
     let found = found(law.parameters, place, values)?;
+    if let Some((name, number, needed)) = magnitude::beyond(law.parameters, &found) {
+        return Err(refused(name, of_magnitude(number, needed)));
+    }
     law.made(&found).map_err(|error| refused(place, error))
+}
+
+/// The reason to refuse a number for its magnitude, if there is one; zero is refused elsewhere.
+#[pyfunction]
+pub fn beyond(number: f64, is_positive: bool) -> Option<String> {
+    let bounds = if is_positive { POSITIVE } else { ANY };
+    magnitude::needed(bounds, number).map(|needed| of_magnitude(number, needed))
+}
+
+fn of_magnitude(number: f64, needed: &str) -> String {
+    let (found, advice) = (shown(number), magnitude::ADVICE);
+    format!("it must be {needed}, but is {found}; {advice}")
 }
 
 fn found(

@@ -43,7 +43,7 @@ mod _striae {
     use super::{
         cavity::Cavity,
         component::{Contact, Evaluation, Increment, MeshPair, MeshSurface, State},
-        declared::{Parameter, declarations},
+        declared::{Parameter, beyond, declarations},
         everything::Everything,
         fit::{fit_friction, measurements_of},
         friction::Friction,

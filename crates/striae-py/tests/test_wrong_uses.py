@@ -152,6 +152,23 @@ MODEL_ERRORS: list[tuple[Callable[[], Any], str]] = [
         lambda: st.NeoHookean(1.0, 0.5),
         "NeoHookean: Poisson's ratio is 0.5, but it must be above -1 and below 0.5",
     ),
+    (
+        lambda: st.LinearElastic(1e300, 0.3),
+        "youngs_modulus: it must be at most 1e50 in magnitude, but is 1e300; check its unit and its"
+        " exponent",
+    ),
+    (
+        lambda: st.IsochoricNeoHookean(shear_modulus=1e-300, bulk_modulus=1.0),
+        "shear_modulus: it must be from 1e-50 to 1e50, but is 1e-300; check its unit and its exponent",
+    ),
+    (
+        lambda: st.Body("pad", st.block(), RUBBER, density=1e-320),
+        "density: it must be from 1e-50 to 1e50, but is 1e-320; check its unit and its exponent",
+    ),
+    (
+        lambda: st.Model().step("press", duration=1e-320),
+        "duration: it must be from 1e-50 to 1e50, but is 1e-320; check its unit and its exponent",
+    ),
     (lambda: st.Coulomb(float("nan")), "mu: a finite number is needed, not nan"),
     (lambda: st.Coulomb(-0.1), "Coulomb: mu = -0.1 is refused: it must be zero or positive, and finite"),
     (lambda: st.Coulomb("0.3"), "mu: a number is needed, not '0.3'"),  # type: ignore[arg-type]

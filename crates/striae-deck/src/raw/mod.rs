@@ -26,7 +26,7 @@ pub(crate) use {
 use super::value::{NamedNumbers, OneOrMore, Prose};
 
 table! {
-    /// A whole simulation. All quantities are in one consistent system of units of your choice.
+    /// A whole simulation. All quantities are in one consistent system of units of your choice, such that numbers are at most 1e50 in magnitude, and at least 1e-50 where they must be greater than zero.
     Simulation {
         /// Title: the subject of the simulation in one line.
         required title: Prose,

@@ -238,7 +238,15 @@ def number(value: Any, path: str) -> float:
         raise refuse(path, f"a number is needed, not {value!r}")
     if not np.isfinite(value):
         raise refuse(path, f"a finite number is needed, not {value!r}")
-    return float(value)
+    return reachable(float(value), path, is_positive=False)
+
+
+def reachable(value: float, path: str, is_positive: bool) -> float:
+    """A number of a magnitude that can be computed with."""
+    reason = native.beyond(value, is_positive)
+    if reason is not None:
+        raise refuse(path, reason)
+    return value
 
 
 def optional(value: Any, path: str) -> Optional[float]:
@@ -297,7 +305,7 @@ def positive(value: Any, path: str) -> float:
     found = number(value, path)
     if not found > 0.0:
         raise refuse(path, f"it must be positive, but is {found}")
-    return found
+    return reachable(found, path, is_positive=True)
 
 
 def fraction(value: Any, path: str) -> float:
