@@ -11,7 +11,7 @@ import numpy.typing as npt
 from . import _check as check
 from ._check import Floats
 from ._described import described
-from ._errors import ModelError, refuse
+from ._errors import refuse
 
 #: Largest number of state variables.
 LARGEST_STATE = 8
@@ -115,21 +115,11 @@ class Functions:
 
     def states(self, **given: Any) -> Floats:
         """States at the end of an increment."""
-        return self._told(lambda: self._states(_points(given))[0])
+        return self._states(_points(given))[0]
 
     def factors(self, **given: Any) -> Floats:
         """Factors, derivatives by pressure and slip rate, and by normal and textures."""
-        return self._told(lambda: self._factors(_points(given)))
-
-    def _told(self, answer: Callable[[], Floats]) -> Floats:
-        try:
-            return answer()
-        except ModelError:
-            raise
-        except Exception as error:
-            raise RuntimeError(
-                f"friction factor `{self.name}`: {type(error).__name__}: {error}"
-            ) from error
+        return self._factors(_points(given))
 
     def _states(self, at: FactorPoints) -> tuple[Floats, Optional[list[Floats]]]:
         """States, and derivatives by pressure and slip rate if they are stated."""

@@ -150,8 +150,8 @@ class Friction(Dependences):
         pressure, it does not jump with pressure or slip rate, its slope by the slip rate is finite
         at rest, both surfaces see the same factor, derivatives are right, and a state neither
         changes in no time nor depends on how time is divided. Otherwise one :class:`ModelError`
-        says what is wrong. During a run a negative factor or an exception ends the run, and the
-        message names the law.
+        says what is wrong. During a run a negative factor ends the run with a message that names
+        the law, and an exception in a function ends it and is raised.
 
         factor: from points to factors, of shape (n,), or :class:`FactorSlopes`.
         name: of the law in messages; states go on under it where a step changes the law.
