@@ -59,7 +59,7 @@ mod _striae {
         run::returned::returned,
         run::{Run, deck_of, resume, run},
         spring::Spring,
-        step::{Step, check_function, moves},
+        step::{Step, check_function, is_uniform, moves},
         texture::Texture,
         tie::Tie,
     };

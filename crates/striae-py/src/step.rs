@@ -67,6 +67,12 @@ pub fn moves(text: &str) -> PyResult<bool> {
     function(text).map(|function| function.moves())
 }
 
+/// Returns whether a function of position and time is the same everywhere.
+#[pyfunction]
+pub fn is_uniform(text: &str) -> PyResult<bool> {
+    function(text).map(|function| function.is_uniform())
+}
+
 impl Along {
     /// The curve.
     pub fn curve(self) -> PyResult<Curve> {

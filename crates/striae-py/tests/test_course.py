@@ -63,6 +63,8 @@ def test_what_is_no_function_is_told() -> None:
         side.force()
     with pytest.raises(st.ModelError, match="period: a function repeats itself"):
         st.Course("sin(t)", period=1)
+    with pytest.raises(st.ModelError, match="course: a function of `t` alone is needed, but `x\\*t`"):
+        st.Course("x*t")
     with pytest.raises(st.ModelError, match="points \\(time, value\\) are needed"):
         st.Course([1.0, 2.0])
 

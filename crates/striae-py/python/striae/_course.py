@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any, Literal, Optional, Union
 
 from . import _check as check
+from . import _striae as native
 from ._errors import refuse
 from ._made import Strict
 
@@ -42,6 +43,12 @@ class Course(Strict):
             if period is not None:
                 raise refuse("period", "a function repeats itself; only points have a period")
             self._text = check.function(course, "course")
+            if not native.is_uniform(course):
+                raise refuse(
+                    "course",
+                    f"a function of `t` alone is needed, but `{course}` depends on `x`, `y` or `z`;"
+                    " state it as the value of the condition",
+                )
         else:
             self._points = check.points(course, "course", "points (time, value)")
 
