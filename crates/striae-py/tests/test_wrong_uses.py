@@ -259,6 +259,18 @@ MODEL_ERRORS: list[tuple[Callable[[], Any], str]] = [
         lambda: floored(None).run(output=""),
         "output: a path must not be empty; `.` is the present folder",
     ),
+    (
+        lambda: floored(None).run(fields_every=2),
+        "fields_every: nothing is written without `output`; give `output` its folder",
+    ),
+    (
+        lambda: floored(None).run(case="mine"),
+        "case: nothing is written without `output`; give `output` its folder",
+    ),
+    (
+        lambda: st.sweep(floored, {"law": [None]}, fields_every=2),
+        "fields_every: nothing is written without `output`; give `output` its folder",
+    ),
     (lambda: floored(None).run(case=""), "case: a name must not be empty"),
     (
         lambda: st.sweep(floored, {"law": [None]}, output=""),

@@ -479,7 +479,15 @@ def record(
     if fields_every is not None:
         check.whole(fields_every, "fields_every", 0)
     named = None if case is None else check.name(case, "case")
+    written(output, case=case, fields_every=fields_every)
     return None if output is None else (check.folder(output, "output"), named, fields_every)
+
+
+def written(output: Optional[Path], **about: object) -> None:
+    """Refuses arguments about files where none are written."""
+    for path, value in about.items():
+        if output is None and value is not None:
+            raise refuse(path, "nothing is written without `output`; give `output` its folder")
 
 
 def concluded(ended: Ended, on_stop: str) -> Run:

@@ -17,7 +17,7 @@ from ._described import described
 from ._errors import RunWarning, SweepError, refuse
 from ._model import Model
 from ._processes import Workers
-from ._run import Keep, Run, keeping
+from ._run import Keep, Run, keeping, written
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -128,6 +128,7 @@ def sweep(
         check.whole(threads, "threads")
     if fields_every is not None:
         check.whole(fields_every, "fields_every", 0)
+    written(output, fields_every=fields_every)
     keeping(keep)
     place = None if output is None else Path(check.folder(output, "output")).absolute()
     all_values = itertools.product(*parameters.values())
