@@ -246,10 +246,14 @@ fn numbers_set_by_paths_go_on() {
 #[test]
 fn a_sweep_of_a_faulty_deck_runs_nothing() {
     let place = place();
-    let words = ["sweep", "deck.toml", "--vary", "mu=0.1,-1", "--out", "s"];
+    let words = ["sweep", "deck.toml", "--vary", "mu=0.1,-0.2", "--out", "s"];
     let output = striae(place.path(), &words);
     assert_eq!(output.status.code(), Some(2));
-    assert!(stderr(&output).contains("deck.toml:"), "{output:?}");
+    let said = stderr(&output);
+    assert!(
+        said.contains("deck.toml:") && said.contains(" but is -0.2\n"),
+        "{said}"
+    );
     assert!(!place.path().join("s").exists());
 }
 

@@ -5,6 +5,7 @@
 
 use std::collections::BTreeMap;
 
+use striae_declared::shown;
 use striae_model::nearest;
 use toml::de::{DeTable, DeValue};
 
@@ -130,7 +131,7 @@ fn written(value: f64) -> String {
     let is_whole = (value - whole).abs() <= ROUND_OFF * whole.abs();
     match is_whole && whole.abs() < LARGEST_WHOLE {
         true => format!("{}", whole as i64),
-        false => format!("{value:e}"),
+        false => shown(value),
     }
 }
 
