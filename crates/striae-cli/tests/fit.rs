@@ -73,6 +73,25 @@ fn every_law_is_fitted() {
     assert!(String::from_utf8_lossy(&output.stdout).contains("slip_rule = \"associated\" }"));
 }
 
+/// Friction that is the same in all directions is measured without telling them.
+#[test]
+fn isotropic_laws_need_no_angles() {
+    let text = "friction\n0.3\n0.5\n";
+    let (output, _) = fit(text, &["--law", "coulomb"]);
+    let told = String::from_utf8_lossy(&output.stdout);
+    assert!(output.status.success(), "{output:?}");
+    assert!(told.contains("{ law = \"coulomb\", mu = 0.4 }"), "{told}");
+    for (text, law) in [
+        (text, "orthotropic"),
+        ("friction,direction\n0.3,10\n", "coulomb"),
+    ] {
+        let (output, _) = fit(text, &["--law", law]);
+        assert_eq!(output.status.code(), Some(2));
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert!(told.contains("a column `angle` is needed"), "{told}");
+    }
+}
+
 #[test]
 fn faults_have_places_and_exit_code_2() {
     for (text, words) in [

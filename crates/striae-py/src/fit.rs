@@ -5,7 +5,7 @@ use pyo3::prelude::*;
 use striae::{
     declared,
     law::fit::{Reading, Sought, Standing, fit},
-    measurements::{self, AngleFrom, Form, NamedColumn},
+    measurements::{self, AngleFrom, Angles, Form, NamedColumn},
 };
 
 use crate::{
@@ -124,6 +124,7 @@ pub fn measurements_of<'py>(
             true => AngleFrom::Along,
             false => AngleFrom::Across,
         },
+        angles: Angles::Needed,
         skipped,
         columns: named.collect::<PyResult<_>>()?,
     };

@@ -8,7 +8,7 @@
 //!
 //! | column | meaning |
 //! | --- | --- |
-//! | `angle` | direction in which the textured surface slips, from its texture `a` (across the grooves, against a nap), counter-clockwise as seen from outside it; of two textured surfaces from the bisector of `a_a` and `a_b'` (degrees) |
+//! | `angle` | direction in which the textured surface slips, from its texture `a` (across the grooves, against a nap), counter-clockwise as seen from outside it; of two textured surfaces from the bisector of `a_a` and `a_b'` (degrees); optional for friction that is the same in all directions, see [`Angles`], unless there is a `direction` |
 //! | `friction` | tangential over normal force: the part against slip, or its whole size where there is a `direction` (no unit); also `mu` |
 //! | `tangential`, `normal` | the two forces, in place of `friction` (force) |
 //! | `direction` | direction of `-tau`, the force that drags the textured surface, counted as `angle` (degrees); optional |
@@ -54,11 +54,24 @@ pub enum AngleFrom {
     Along,
 }
 
+/// Necessity of the column `angle`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Angles {
+    /// The law that is sought depends on the direction of slip, or may do so.
+    #[default]
+    Needed,
+    /// Friction is the same in all directions of slip. Readings without an angle are taken as
+    /// slip across the texture.
+    Optional,
+}
+
 /// Layout of a file of measurements.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Form {
     /// Direction that angles count from.
     pub angle_from: AngleFrom,
+    /// Necessity of angles.
+    pub angles: Angles,
     /// Lines at the beginning that are passed over.
     pub skipped: usize,
     /// Columns that the file names otherwise.

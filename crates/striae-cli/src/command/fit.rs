@@ -13,7 +13,7 @@ use std::{
 use serde_json::{Value, json};
 use striae::{
     figures,
-    measurements::{self, AngleFrom, Form, Measured, MeasurementFaults, NamedColumn},
+    measurements::{self, AngleFrom, Angles, Form, Measured, MeasurementFaults, NamedColumn},
 };
 use striae_declared::{self as declared, Absent, Kind};
 use striae_law::{
@@ -31,7 +31,8 @@ use sought::Law;
 /// a line, under a line with the names of columns, in any letters and with units in brackets behind
 /// where you like: `angle`, the direction in which the textured
 /// surface slips, in degrees from its texture `a` (across the grooves, against a nap; of two
-/// textures from the bisector of both; `--angle-from along` counts from the grooves);
+/// textures from the bisector of both; `--angle-from along` counts from the grooves), which
+/// `--law coulomb` does without;
 /// `friction`, tangential over normal force, or the forces `tangential` and `normal`; and where
 /// they are known `direction`, the angle of the force that drags the textured surface, `theta`,
 /// the angle between the textures of two surfaces, `spread`, the standard deviation of a reading
@@ -76,6 +77,10 @@ impl Arguments {
             angle_from: match self.angle_from {
                 FromName::Across => AngleFrom::Across,
                 FromName::Along => AngleFrom::Along,
+            },
+            angles: match self.law.0.is_isotropic() {
+                true => Angles::Optional,
+                false => Angles::Needed,
             },
             skipped: self.skip_lines,
             columns: self.columns.clone(),

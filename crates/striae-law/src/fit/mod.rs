@@ -192,6 +192,15 @@ impl Sought {
         self.law
     }
 
+    /// Returns whether friction is the same in all directions, so that readings need no angles.
+    pub fn is_isotropic(&self) -> bool {
+        match self.basis {
+            // One direction in which it dissipates stands for all.
+            Basis::Sum(sum) => (sum.judged)().len() == 1,
+            Basis::Table { .. } => false,
+        }
+    }
+
     /// Readings that determine the constants.
     fn needed(&self) -> &'static str {
         match self.basis {

@@ -4,7 +4,7 @@ use striae_files::Separator;
 use striae_law::fit::{LARGEST_FRICTION, Reading, SPREADS};
 
 use super::{
-    COLUMNS, Form, MeasurementFault, NamedColumn, fault,
+    Angles, COLUMNS, Form, MeasurementFault, NamedColumn, fault,
     name::{Name, is_misspelt},
 };
 
@@ -84,7 +84,7 @@ impl Header {
         }
         header.take_similar((number, &written), faults);
         if faults.len() == before
-            && let Some(message) = header.missing()
+            && let Some(message) = header.missing(form.angles)
         {
             faults.push(fault(Some((number, 1)), message));
         }
@@ -169,7 +169,7 @@ impl Header {
     }
 
     /// The quantity that is missing, in a sentence.
-    fn missing(&self) -> Option<String> {
+    fn missing(&self, angles: Angles) -> Option<String> {
         let ratio = [self.has("tangential"), self.has("normal")];
         let needed = match (self.has("friction"), ratio) {
             _ if self.naming == Naming::Numbers && self.fields.is_empty() => {
@@ -179,7 +179,9 @@ impl Header {
                         .to_owned(),
                 );
             }
-            _ if !self.has("angle") => "a column `angle` is needed: slip in degrees",
+            _ if !self.has("angle") && self.needs_angle(angles) => {
+                "a column `angle` is needed: slip in degrees"
+            }
             (true, [false, false]) | (false, [true, true]) => return None,
             (true, _) => {
                 return Some(
@@ -195,15 +197,20 @@ impl Header {
         let hint = match similar {
             Some((name, known)) => format!("unknown column `{name}`; did you mean `{known}`?"),
             None => {
-                let quantity = if self.has("angle") {
-                    "friction"
-                } else {
-                    "angle"
+                let quantity = match !self.has("angle") && self.needs_angle(angles) {
+                    true => "angle",
+                    false => "friction",
                 };
                 format!("name yours by `--columns`, such as `--columns {quantity}=COLUMN`")
             }
         };
         Some(format!("{needed}; {}; {hint}", self.there()))
+    }
+
+    /// Returns whether the column `angle` must be there; a direction of friction is one beside
+    /// that of slip.
+    fn needs_angle(&self, angles: Angles) -> bool {
+        angles == Angles::Needed || self.has("direction")
     }
 
     fn has(&self, name: &str) -> bool {
@@ -242,7 +249,10 @@ impl Header {
             }
             found
         };
-        let angle = value("angle", Sign::Any);
+        let angle = match self.has("angle") {
+            true => value("angle", Sign::Any),
+            false => Some(0.0),
+        };
         let friction = match self.has("friction") {
             true => value("friction", Sign::Any),
             false => {
