@@ -2,7 +2,7 @@
 
 use std::{
     collections::BTreeMap,
-    io::{self, BufRead, BufReader},
+    io::{self, BufRead, BufReader, Write},
     process::{Child, ChildStdout, Command, Stdio},
     sync::{
         Mutex, PoisonError,
@@ -74,10 +74,16 @@ pub fn drive(options: &Options) -> io::Result<usize> {
     let tally = tally.into_inner().unwrap_or_else(PoisonError::into_inner);
     keep(options, &tally.failures)?;
     for (target, counts) in &tally.counts {
-        println!("{}", line(*target, counts));
+        say(&line(*target, counts));
     }
-    println!("{} failures", tally.failures.len());
+    say(&format!("{} failures", tally.failures.len()));
     Ok(tally.failures.len())
+}
+
+/// Prints a line, if anybody still reads: after `| head` the exit code tells, and the files of
+/// failures.
+fn say(line: &str) {
+    let _ = writeln!(io::stdout(), "{line}");
 }
 
 fn line(target: Target, counts: &Counts) -> String {
@@ -214,7 +220,7 @@ fn take(
     counts.longest = counts.longest.max((milliseconds, seed));
     counts.largest = counts.largest.max((kilobytes, seed));
     if !["Refused", "Accepted", "Run"].contains(&outcome) {
-        println!("{} {seed}: {outcome}: {text}", target.name());
+        say(&format!("{} {seed}: {outcome}: {text}", target.name()));
         tally.failures.push(Failure {
             seed,
             outcome: outcome.to_owned(),
