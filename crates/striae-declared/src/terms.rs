@@ -22,7 +22,8 @@ const PLAIN: std::ops::Range<f64> = 1e-5..1e15;
 /// Returns a number as messages show it: with the digits that tell it from all others, and with an
 /// exponent if it is very large or small.
 pub fn shown(value: f64) -> String {
-    match value == 0.0 || !value.is_finite() || PLAIN.contains(&value.abs()) {
+    match !value.is_finite() || PLAIN.contains(&value.abs()) {
+        _ if value == 0.0 => "0".to_owned(),
         true => value.to_string(),
         false => format!("{value:e}"),
     }
@@ -36,6 +37,7 @@ mod tests {
     fn numbers_are_shown_in_few_characters() {
         for (value, text) in [
             (0.0, "0"),
+            (-0.0, "0"),
             (-0.25, "-0.25"),
             (1e14, "100000000000000"),
             (1e300, "1e300"),

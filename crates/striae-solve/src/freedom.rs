@@ -465,7 +465,9 @@ impl Component {
     fn motion(&self, problem: &Problem, free: &[usize]) -> FreeMotion {
         let mover = self.mover(problem);
         let words = match &mover {
-            FreeMover::Rigid(_) => ["`x`", "`y`", "`z`", "`rx`", "`ry`", "`rz`"],
+            FreeMover::Rigid(_) => [
+                "in `x`", "in `y`", "in `z`", "in `rx`", "in `ry`", "in `rz`",
+            ],
             FreeMover::Body(_) => [
                 "along x", "along y", "along z", "about x", "about y", "about z",
             ],
@@ -481,7 +483,11 @@ impl Component {
     /// Any other motion.
     fn oblique(&self, problem: &Problem, [x, y, z, rx, ry, rz]: &[f64; 6]) -> FreeMotion {
         let (shift, turn) = (Vec3::new(*x, *y, *z), Vec3::new(*rx, *ry, *rz));
-        let words = |v: &Vec3| format!("({:.3}, {:.3}, {:.3})", v.x, v.y, v.z);
+        let words = |v: &Vec3| {
+            // Zero has no sign.
+            let [x, y, z] = [v.x, v.y, v.z].map(|x| (x * 1e3).round() / 1e3 + 0.0);
+            format!("({x:.3}, {y:.3}, {z:.3})")
+        };
         let motions = if turn.norm() < SHORT * shift.norm() {
             format!("along {}", words(&shift.normalize()))
         } else {
@@ -494,10 +500,6 @@ impl Component {
             )
         };
         let mover = self.mover(problem);
-        let motions = match &mover {
-            FreeMover::Body(_) => motions,
-            FreeMover::Rigid(_) => format!("the motion {motions}"),
-        };
         FreeMotion { mover, motions }
     }
 }

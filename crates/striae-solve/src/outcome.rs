@@ -429,7 +429,7 @@ pub enum Remedy {
 pub struct FreeMotion {
     /// Body or surface that is free to move.
     pub mover: FreeMover,
-    /// The motions in words: `along x and about z`, or coordinates of a rigid body.
+    /// The motions in words: `along x and about z`, or, of a rigid body, "in `x` and in `rz`".
     pub motions: String,
 }
 
@@ -452,7 +452,7 @@ impl std::fmt::Display for FreeMotion {
                     "body `{name}` is not restrained: it is free to move {motions}"
                 )
             }
-            FreeMover::Rigid(name) => write!(f, "{motions} of `{name}` is free"),
+            FreeMover::Rigid(name) => write!(f, "rigid body `{name}` is free to move {motions}"),
         }
     }
 }

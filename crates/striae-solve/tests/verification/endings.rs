@@ -156,7 +156,10 @@ fn a_torque_beyond_friction_ends_at_the_limit_of_friction() {
         panic!("{}", run.ending);
     };
     assert_eq!(pair, "interface");
-    assert_eq!(motion.to_string(), "`rz` of `hand` is free");
+    assert_eq!(
+        motion.to_string(),
+        "rigid body `hand` is free to move in `rz`"
+    );
     assert!(*reached > 0.1 && *reached < 0.9, "{reached}");
 }
 

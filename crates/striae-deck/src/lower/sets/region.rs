@@ -33,8 +33,9 @@ impl Within {
 fn found<T>(mesh: &Mesh, members: Vec<T>) -> Found<T> {
     let (low, high) = mesh.bounds();
     let hint = format!(
-        "the body extends from ({}, {}, {}) to ({}, {}, {})",
-        low.x, low.y, low.z, high.x, high.y, high.z
+        "the body extends from {} to {}",
+        striae_mesh::place(&low),
+        striae_mesh::place(&high)
     );
     Found {
         members,
