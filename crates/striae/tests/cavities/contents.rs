@@ -2,8 +2,9 @@
 
 use striae::{
     mesh::generate::Annulus,
-    model::{Backend, CavityContent, Solver, cavity, solver},
+    model::{Backend, CavityContent, Model, Solver, cavity, solver},
     prelude::*,
+    sensitivity::parameter,
 };
 
 use super::scene::{cube, hollow_cube, run};
@@ -189,4 +190,23 @@ fn a_cavity_presses_its_body_onto_a_lid() {
     assert!(run.results().pair("stop").unwrap().sides[0].force.z < 0.0);
     let warnings = &run.summary.warnings;
     assert!(warnings.is_empty(), "{warnings:?}");
+}
+
+/// A shift of a body as a whole changes the pressure in it by round-off, of which there is nothing
+/// to warn.
+#[test]
+fn pressures_that_change_by_round_off_are_not_uncertain() {
+    let shifted = |x: f64| -> Result<Model, Error> {
+        let fill = step("fill")
+            .increments(1)
+            .displace("cube", "foot", [x, 0.0, 0.0])
+            .fill("hole", CavityContent::Pressure(1e-3));
+        let seal = step("seal").increments(2).fill("hole", gas(1.0));
+        Ok(cube("A shifted cube").step(fill).step(seal).build()?)
+    };
+    let simulation = Simulation::new(shifted(0.0).unwrap()).unwrap();
+    let by = parameter("shift", 0.0, shifted).unwrap();
+    let run = simulation.differentiated(by).run().unwrap();
+    let warnings = run.summary.warnings.iter().map(|of| &of.text);
+    assert_eq!(warnings.collect::<Vec<_>>(), [""; 0]);
 }

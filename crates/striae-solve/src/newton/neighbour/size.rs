@@ -4,12 +4,18 @@ use striae_mesh::Vec3;
 
 use crate::{layout::Layout, problem::Problem, state::State};
 
-/// Part of positions and tractions below which a correction is round-off.
+/// Part of what is corrected below which a correction is round-off.
 const ROUND_OFF: f64 = 1e-11;
 
-/// Largest components of a difference: of positions, and of everything else.
+/// Kinds of unknowns, of one unit each: positions and displacements of rigid bodies, rotations of
+/// these, and tractions with the pressures of cavities.
+const POSITION: usize = 0;
+const ROTATION: usize = 1;
+const STRESS: usize = 2;
+
+/// Largest components of a difference, by kind.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Size([f64; 2]);
+pub(crate) struct Size([f64; 3]);
 
 impl Size {
     /// Differences of positions.
@@ -18,20 +24,23 @@ impl Size {
             .iter()
             .zip(other)
             .map(|(one, other)| (one - other).amax());
-        Self([differences.fold(0.0, f64::max), 0.0])
+        Self([differences.fold(0.0, f64::max), 0.0, 0.0])
     }
 
     /// Components of a correction.
     pub(super) fn of(correction: &[f64], problem: &Problem, layout: &Layout) -> Self {
-        let mut is_position = vec![false; correction.len()];
+        let mut kinds = vec![STRESS; correction.len()];
         for node in problem.global_nodes() {
             let first = layout.position(node);
-            is_position[first..first + 3].fill(true);
+            kinds[first..first + 3].fill(POSITION);
         }
-        let mut size = [0.0_f64; 2];
-        for (is_position, value) in is_position.iter().zip(correction) {
-            let of = &mut size[usize::from(!is_position)];
-            *of = of.max(value.abs());
+        for first in (0..problem.tied.len()).filter_map(|rigid| layout.rigid(rigid)) {
+            kinds[first..first + 3].fill(POSITION);
+            kinds[first + 3..first + 6].fill(ROTATION);
+        }
+        let mut size = [0.0_f64; 3];
+        for (kind, value) in kinds.into_iter().zip(correction) {
+            size[kind] = size[kind].max(value.abs());
         }
         Self(size)
     }
@@ -40,23 +49,27 @@ impl Size {
     pub(super) fn round_off(state: &State) -> Self {
         let positions = state.positions.iter().map(|x| x.amax());
         let pairs = state.pairs.iter();
-        let unknowns = pairs.flat_map(|pair| pair.tractions.nodes.iter().flatten().flatten());
+        let tractions = pairs.flat_map(|pair| pair.tractions.nodes.iter().flatten().flatten());
+        let stresses = tractions.chain(&state.pressures);
+        let displacements = state.rigid.iter().map(|pose| pose.displacement.amax());
         let largest = [
-            positions.fold(0.0, f64::max),
-            unknowns.fold(0.0, |largest: f64, value| largest.max(value.abs())),
+            positions.chain(displacements).fold(0.0, f64::max),
+            // A rotation moves what is as far away as positions are large by as much as these.
+            1.0,
+            stresses.fold(0.0, |largest: f64, value| largest.max(value.abs())),
         ];
         Self(largest.map(|largest| ROUND_OFF * largest))
     }
 
     /// The larger components of both.
     pub(super) fn max(&self, other: &Self) -> Self {
-        Self([0, 1].map(|at| self.0[at].max(other.0[at])))
+        Self([0, 1, 2].map(|at| self.0[at].max(other.0[at])))
     }
 
     /// Without what does not exceed another one.
     pub(super) fn beyond(&self, other: &Self) -> Self {
         let beyond = |at: usize| Some(self.0[at]).filter(|size| *size > other.0[at]);
-        Self([0, 1].map(|at| beyond(at).unwrap_or(0.0)))
+        Self([0, 1, 2].map(|at| beyond(at).unwrap_or(0.0)))
     }
 
     /// The largest of its shares in another one.
