@@ -5,8 +5,9 @@ use std::path::Path;
 use striae_deck::{Deck, FaultKind, Faults, parse};
 use striae_solve::{
     assembly::StepContext,
-    initial::{InitialFault, Offsets, fits, may_meet},
+    initial::{InitialFault, fits, may_meet},
     model::{ClosedGaps, Initial, Model, PairId},
+    offsets::Offsets,
     problem::Problem,
     state::State,
 };

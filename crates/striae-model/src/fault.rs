@@ -310,7 +310,7 @@ pub enum FaultKind {
     #[error("{cause}")]
     Unpainted {
         /// Reason.
-        cause: striae_solve::problem::ProblemError,
+        cause: striae_solve::pair_geometry::PairError,
     },
     /// A tie that does not hold.
     #[error("{fault}")]

@@ -29,7 +29,7 @@ use std::{
 
 use striae_contact::unknowns::NodeResult;
 use striae_solve::{
-    drive::Progress, initial::surfaces, newton::Increment, outcome::Ending, problem::Problem,
+    drive::Progress, newton::Increment, outcome::Ending, problem::Problem, report::surfaces,
     share::Share, state::State,
 };
 

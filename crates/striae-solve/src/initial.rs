@@ -2,17 +2,16 @@
 //!
 //! Overlaps of more than two hundredths of the local facet size are a [`fault`] unless the pair
 //! states their treatment: [`close`] moves the nodes of the smaller side to the other one, without
-//! strain, as it is the reference mesh that changes; [`Offsets`] let overlaps fade over the first
-//! step.
+//! strain, as it is the reference mesh that changes; or they fade over the first step, see
+//! [`crate::offsets`].
 
 mod close;
 mod crowd;
+mod depth;
 mod facing;
 mod faults;
-mod offsets;
 mod opposed;
 mod reach;
-mod surfaces;
 mod translation;
 
 use striae_contact::{
@@ -28,7 +27,7 @@ use striae_surface::{node::SurfaceNode, topology::Surface};
 
 use crate::{
     model::{ContactSurface, Initial, Model, PairId, RigidShape},
-    problem::{PairGeometry, add_fibres, pair_geometry, thickness_with},
+    pair_geometry::{PairGeometry, add_fibres, pair_geometry, thickness_with},
 };
 
 pub use close::close;
@@ -36,10 +35,8 @@ pub use crowd::opposite;
 use facing::askew;
 pub use facing::{Turned, back_to_back, turned};
 pub use faults::{Closing, InitialFault, Reversal};
-pub use offsets::{Offsets, meant_depth};
 pub use opposed::opposed;
 pub use reach::may_meet;
-pub use surfaces::surfaces;
 
 /// Overlap over the local facet size that is no fault of the mesh.
 pub(crate) const LARGEST_OVERLAP: f64 = 0.02;
@@ -142,7 +139,7 @@ fn unseated(model: &Model, pair: PairId, fit: &Fit) -> Option<InitialFault> {
 /// The fault that an overlap is too deep to be pressed out.
 fn too_deep(model: &Model, pair: PairId) -> Option<InitialFault> {
     let reference = Reference::new(model, pair)?;
-    let (found, thickness, size) = reference.at(model, offsets::beyond_middle)?;
+    let (found, thickness, size) = reference.at(model, depth::beyond_middle)?;
     Some(InitialFault::Deep {
         pair: model.pairs[pair.0].name.clone(),
         body: other_name(model, pair, found.side.opposite()).to_owned(),

@@ -9,11 +9,7 @@ use striae_contact::{
 };
 use striae_mesh::{NodeId, Vec3};
 
-use crate::{
-    problem::{Problem, thickness_with},
-    rigid::Pose,
-    state::State,
-};
+use crate::{pair_geometry::thickness_with, problem::Problem, rigid::Pose, state::State};
 
 /// Positions of nodes and rigid bodies.
 #[derive(Clone, Copy, Debug)]

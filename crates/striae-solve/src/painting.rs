@@ -6,7 +6,7 @@ use striae_surface::texture::Paint;
 
 use crate::{
     model::{ContactSurface, Model, Pair, RigidShape},
-    problem::{ProblemError, Undirected, pair_geometry},
+    pair_geometry::{PairError, Undirected, pair_geometry},
 };
 
 /// Cosine between the normals of a facet and of a plane that it faces.
@@ -20,7 +20,7 @@ pub struct PaintFault {
     /// Side of the texture, if it is one.
     pub side: Option<usize>,
     /// Reason.
-    pub error: ProblemError,
+    pub error: PairError,
 }
 
 /// All that is wrong with the sides and textures of the pairs; nothing if all can be painted.
@@ -41,10 +41,10 @@ pub fn faults(model: &Model) -> Vec<PaintFault> {
 }
 
 /// Side whose texture an error is about: the only one that is painted, or the first that fails.
-fn side_of(pair: &Pair, error: &ProblemError) -> Option<usize> {
+fn side_of(pair: &Pair, error: &PairError) -> Option<usize> {
     match error {
-        ProblemError::Texture { side, .. } | ProblemError::Undirected { side, .. } => Some(*side),
-        ProblemError::PlaneTexture { .. } => pair.textures.iter().position(Option::is_some),
+        PairError::Texture { side, .. } | PairError::Undirected { side, .. } => Some(*side),
+        PairError::PlaneTexture { .. } => pair.textures.iter().position(Option::is_some),
         _ => None,
     }
 }
@@ -60,7 +60,7 @@ fn is_asked_for(model: &Model, pair: usize) -> bool {
 }
 
 /// A texture of a rigid plane that has no direction opposite to a node of the body.
-fn on_plane(model: &Model, pair: &Pair) -> Option<ProblemError> {
+fn on_plane(model: &Model, pair: &Pair) -> Option<PairError> {
     let (ContactSurface::Rigid(rigid), Some(Paint::Field(field))) = (&pair.b, &pair.textures[1])
     else {
         return None;
@@ -89,7 +89,7 @@ fn on_plane(model: &Model, pair: &Pair) -> Option<ProblemError> {
         .iter()
         .find(|node| field.axes(opposite(node), n).is_none())?;
     let at = opposite(&node);
-    Some(ProblemError::Undirected {
+    Some(PairError::Undirected {
         pair: pair.name.clone(),
         side: 1,
         surface: format!("rigid surface `{}`", rigid.name),

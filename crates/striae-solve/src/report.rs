@@ -3,10 +3,12 @@
 
 mod cavities;
 mod springs;
+mod surfaces;
 mod ties;
 
 pub use cavities::{CavityReport, cavities};
 pub use springs::{SpringReport, springs};
+pub use surfaces::surfaces;
 pub use ties::{TieReport, TieSide, TieTraction, tie_surface, tie_tractions, ties};
 
 use std::collections::BTreeSet;

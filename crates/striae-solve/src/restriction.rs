@@ -19,7 +19,8 @@ use striae_contact::{pair::Geometry, side::Side};
 
 use crate::{
     model::{Cavity, Model, Spring},
-    problem::{Frame, PairGeometry, Problem, ProblemError},
+    pair_geometry::PairGeometry,
+    problem::{Frame, Problem, ProblemError},
     share::{Division, Share},
     team::Team,
 };

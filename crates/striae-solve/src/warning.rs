@@ -46,11 +46,12 @@ use striae_surface::node::SurfaceNode;
 
 use crate::{
     audit::{Doubt, LEAST_SHARE, coarse, doubts},
-    initial::{fits, may_meet, meant_depth, other_name},
+    initial::{fits, may_meet, other_name},
     interference::{Positions, between, beyond, within},
     model::{Initial, Model, PairId, Procedure},
     newton::{Acceptance, InStep, Increment, Reach},
     node::GlobalNode,
+    offsets::meant_depth,
     outcome::Ending,
     problem::Problem,
     report::{PairReport, pairs, ties},

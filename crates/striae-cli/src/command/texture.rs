@@ -18,7 +18,7 @@ use striae::{
 };
 use striae_contact::side::Side;
 use striae_output::vtk::{self, Array, Cells, Grid, Values};
-use striae_solve::problem::Problem;
+use striae_solve::problem::{Problem, ProblemError};
 use striae_surface::texture::Conditioning;
 
 use crate::{command::law::make_folder, failure::Failure, source::Source};
@@ -44,7 +44,8 @@ pub fn run(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
     let mut surfaces = Vec::new();
     for pair in 0..problem.pairs.len() {
         for side in Side::BOTH {
-            if let Some(surface) = TexturedSurface::new(&problem, pair, side)? {
+            let painted = TexturedSurface::new(&problem, pair, side).map_err(ProblemError::from)?;
+            if let Some(surface) = painted {
                 surfaces.push(((pair, side), surface));
             }
         }

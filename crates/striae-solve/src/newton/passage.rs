@@ -24,10 +24,11 @@ use striae_surface::{node::SurfaceNode, topology::distinct_corners};
 
 use crate::{
     assembly::{Setting, Trial},
-    initial::{meant_depth, other_name},
+    initial::other_name,
     interference::{Positions, between, beyond},
     model::PairId,
     node::GlobalNode,
+    offsets::meant_depth,
     outcome::{CutBack, Start},
     skin::{BodyOverlap, crossing, overlaps},
 };

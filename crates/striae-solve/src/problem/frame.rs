@@ -1,10 +1,11 @@
 //! Parts of a problem that follow from its model before there are elements.
 
-use super::{PairGeometry, ProblemError, fibres::add_fibres, pair_geometry, shadow::shadowed};
+use super::{ProblemError, shadow::shadowed};
 use crate::{
     composition::Materials,
     contact_mass::massless,
     model::Model,
+    pair_geometry::{PairGeometry, add_fibres, pair_geometry},
     share::Share,
     skin::Skin,
     tie::{Ties, first_nodes},

@@ -2,7 +2,7 @@
 
 use striae_contact::{pair::Geometry, side::Side, texture::SideTexture};
 use striae_mesh::{NodeId, Vec3};
-use striae_solve::problem::{Problem, ProblemError};
+use striae_solve::{pair_geometry::PairError, problem::Problem};
 use striae_surface::{
     node::SurfaceNode,
     normal::nodal_normals,
@@ -36,7 +36,7 @@ impl TexturedSurface {
     ///
     /// # Errors
     /// If the texture has no direction on the surface.
-    pub fn new(problem: &Problem, pair: usize, side: Side) -> Result<Option<Self>, ProblemError> {
+    pub fn new(problem: &Problem, pair: usize, side: Side) -> Result<Option<Self>, PairError> {
         let geometry = &problem.pairs[pair].contact.sides[side];
         let textured = match (&geometry.geometry, &geometry.texture) {
             (_, None) => return Ok(None),
@@ -162,8 +162,8 @@ fn texture_error(
     side: Side,
     surface: &Surface,
     error: TextureError,
-) -> ProblemError {
-    ProblemError::Texture {
+) -> PairError {
+    PairError::Texture {
         pair: problem.model.pairs[pair].name.clone(),
         side: side as usize,
         surface: super::owner(&problem.model, pair, side),

@@ -1,7 +1,7 @@
 //! Energy that contact makes beyond what friction explains.
 
 use super::Ends;
-use crate::initial::Offsets;
+use crate::offsets::Offsets;
 
 impl Ends<'_> {
     /// Energy that contact has made beyond friction, at least. Only the forces at the ends of an

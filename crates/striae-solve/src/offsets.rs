@@ -21,20 +21,16 @@ use std::sync::Arc;
 
 use striae_contact::{
     initial::overlaps,
-    interference::{AHEAD, Interference, Place, Stage, inside},
+    interference::{AHEAD, Stage, inside},
     seating::{Fitted, Seating},
 };
 
-use super::LARGEST_OVERLAP;
 use crate::{
     interference::{Positions, configuration, thickness},
     model::{Initial, InterferenceFit, Moment},
     problem::Problem,
     state::State,
 };
-
-/// Overlap over the thickness of the body beyond which its other side is nearer.
-const HALF: f64 = 0.5;
 
 /// Offsets of the gaps of a pair in a step.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -133,21 +129,4 @@ pub fn meant_depth(problem: &Problem, pair: usize, worn: f64) -> f64 {
     };
     let drawn = inside(&stage, 0.0).into_iter().map(|found| found.depth);
     drawn.fold(0.0, f64::max) + interference.deepest(problem.plans[0].start) + worn
-}
-
-/// The deepest overlap over the thickness of the body, if it is more than half of it, with that
-/// thickness and the local facet size.
-pub(super) fn beyond_middle(stage: &Stage) -> Option<(Interference, f64, f64)> {
-    let found = inside(stage, LARGEST_OVERLAP).into_iter();
-    let thick = found.filter_map(|found| {
-        let Place::Facet(facet) = found.place else {
-            return None;
-        };
-        let thickness = stage.thickness.0[found.side.opposite()][facet.index()];
-        (found.depth > HALF * thickness).then_some((found, thickness))
-    });
-    let share = |(found, thickness): &(Interference, f64)| found.depth / thickness;
-    let (found, thickness) = thick.max_by(|a, b| share(a).total_cmp(&share(b)))?;
-    let size = stage.configuration.side(found.side).sizes[found.node];
-    Some((found, thickness, size))
 }

@@ -14,7 +14,7 @@ use crate::model::Model;
 
 /// Fibres through what is behind the facets of all pairs. They end at nodes of the
 /// body, or of the rigid surface.
-pub(crate) fn add_fibres(model: &Model, pairs: &mut [PairGeometry]) {
+pub fn add_fibres(model: &Model, pairs: &mut [PairGeometry]) {
     let skin = |body: usize| {
         let mesh = &model.bodies[body].mesh;
         let faces = mesh.boundary_faces().into_iter();
@@ -78,10 +78,7 @@ fn behind(model: &Model, pair: &PairGeometry) -> [Vec<Behind>; 2] {
 }
 
 /// Thickness with the nodes of bodies at given places.
-pub(crate) fn thickness_with(
-    geometry: &PairGeometry,
-    at: impl Fn(usize, NodeId) -> Vec3,
-) -> Thickness {
+pub fn thickness_with(geometry: &PairGeometry, at: impl Fn(usize, NodeId) -> Vec3) -> Thickness {
     Thickness(Side::BOTH.map(|side| {
         let Some(surface) = geometry.contact.sides[side].surface() else {
             return Vec::new();

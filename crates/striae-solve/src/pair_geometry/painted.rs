@@ -9,7 +9,7 @@ use striae_surface::{
     topology::Surface,
 };
 
-use super::ProblemError;
+use super::PairError;
 use crate::model::{ContactSurface, Model, Pair};
 
 /// Reason why a texture has no direction at a node.
@@ -27,7 +27,7 @@ pub enum Undirected {
 
 impl Undirected {
     /// Reason why a field has no direction at a point.
-    pub(crate) fn of(field: &Field, x: &Vec3) -> Self {
+    pub fn of(field: &Field, x: &Vec3) -> Self {
         match field.lines.pole() {
             Some(axis) => {
                 let arm = x - axis.point;
@@ -74,7 +74,7 @@ impl Undirected {
     }
 
     /// Cause and remedy, as the end of a sentence.
-    pub(crate) fn words(self) -> &'static str {
+    pub fn words(self) -> &'static str {
         match self {
             Self::OnAxis => {
                 "its axis passes through that node, where circles and rays have no direction; move the axis or the mesh so that no node lies on it, or leave the facets around the node out of the pair"
@@ -129,19 +129,19 @@ pub(super) fn painted(
     geometry: &Geometry,
     positions: &[Vec3],
     paint: &Paint,
-) -> Result<(SideTexture, Option<Conditioning>), ProblemError> {
+) -> Result<(SideTexture, Option<Conditioning>), PairError> {
     let surface = match (geometry, paint) {
         (Geometry::Plane { .. }, Paint::Field(field)) => {
             return Ok((SideTexture::Plane(field.clone()), None));
         }
         (Geometry::Plane { .. }, _) => {
-            return Err(ProblemError::PlaneTexture {
+            return Err(PairError::PlaneTexture {
                 pair: pair.name.clone(),
             });
         }
         (Geometry::Deformable(surface) | Geometry::Rigid(surface), _) => surface,
         (Geometry::Itself, _) => {
-            return Err(ProblemError::TextureOfItself {
+            return Err(PairError::TextureOfItself {
                 pair: pair.name.clone(),
             });
         }
@@ -163,17 +163,15 @@ pub(super) fn painted(
             ContactSurface::Itself => "side `a` itself".to_owned(),
         };
         match (&error, node, of_mesh) {
-            (TextureError::Vanishing { .. }, Some(node), Some(of_mesh)) => {
-                ProblemError::Undirected {
-                    pair: pair_name,
-                    side,
-                    surface: owner,
-                    node: of_mesh.to_string(),
-                    at: Box::new(positions[node.index()]),
-                    cause: Undirected::of_paint(paint, node, positions),
-                }
-            }
-            _ => ProblemError::Texture {
+            (TextureError::Vanishing { .. }, Some(node), Some(of_mesh)) => PairError::Undirected {
+                pair: pair_name,
+                side,
+                surface: owner,
+                node: of_mesh.to_string(),
+                at: Box::new(positions[node.index()]),
+                cause: Undirected::of_paint(paint, node, positions),
+            },
+            _ => PairError::Texture {
                 pair: pair_name,
                 side,
                 surface: owner,
