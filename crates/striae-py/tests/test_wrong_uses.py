@@ -437,6 +437,64 @@ TYPE_ERRORS: list[tuple[Callable[[], Any], str]] = [
         lambda: floored(None).run(case=3),  # type: ignore[arg-type]
         "case: a name is needed, not 3",
     ),
+    (
+        lambda: st.Mesh(POINTS, {"hexahedron": CELLS}, node_sets=["top"]),  # type: ignore[arg-type]
+        "node_sets: a mapping is needed, not list",
+    ),
+    (
+        lambda: st.Mesh(POINTS, {"hexahedron": CELLS}, element_sets="core"),  # type: ignore[arg-type]
+        "element_sets: a mapping is needed, not str",
+    ),
+    (
+        lambda: st.Body("pad", st.block(), RUBBER, sections=3),  # type: ignore[arg-type]
+        "sections: a list of sections is needed, not 3",
+    ),
+    (lambda: pad().add_set([1], [0]), "name: a name is needed, not [1]"),  # type: ignore[arg-type]
+    (
+        lambda: floored(None).contact_all(exclude=3),  # type: ignore[arg-type]
+        "exclude: a list of surfaces, and of tuples of two, is needed, not 3",
+    ),
+    (
+        lambda: floored(None).contact_all(between=None),  # type: ignore[arg-type]
+        "between: a list of two surfaces and their law each is needed, not None",
+    ),
+    (
+        lambda: floored(None).contact_all(textures=3),  # type: ignore[arg-type]
+        "textures: a list of textured surfaces is needed, not 3",
+    ),
+    (lambda: st.RigidBody("r", 3), "tied: a list of sets is needed, not 3"),  # type: ignore[arg-type]
+    (
+        lambda: st.Plane("f").move(free=3),  # type: ignore[arg-type]
+        "free: a list of coordinates is needed, not 3",
+    ),
+    (
+        lambda: st.Fibrous(RUBBER, None),  # type: ignore[arg-type]
+        "fibres: a list of families is needed, not None",
+    ),
+    (
+        lambda: st.fit_friction([0], [0.1], [1]),  # type: ignore[arg-type]
+        "law: one of the classes Coulomb, TwoTextures, Orthotropic, Nap, Tabulated is needed, not [1]",
+    ),
+    (
+        lambda: st.fit_friction([0], [0.1], st.Coulomb, specimen=3),  # type: ignore[arg-type]
+        "specimen: a list of names is needed, not 3",
+    ),
+    (lambda: st.read_measurements(3), "path: a path is needed, not 3"),  # type: ignore[arg-type]
+    (
+        lambda: st.read_measurements("m.csv", columns="angle"),  # type: ignore[arg-type]
+        "columns: a mapping is needed, not str",
+    ),
+    (lambda: st.read_mesh(3), "path: a path is needed, not 3"),  # type: ignore[arg-type]
+    (lambda: st.Model.from_deck(3), "path: a path is needed, not 3"),  # type: ignore[arg-type]
+    (
+        lambda: st.Model.from_text(3),  # type: ignore[arg-type]
+        "text: the text of a deck is needed, not int",
+    ),
+    (lambda: floored(None).to_deck(3), "path: a path is needed, not 3"),  # type: ignore[arg-type]
+    (
+        lambda: steady().picture("a.png", hide=3),  # type: ignore[arg-type]
+        "hide: a list of names is needed, not 3",
+    ),
     (lambda: st.resume(3), "folder: a path is needed, not 3"),  # type: ignore[arg-type]
     (lambda: steady()[-1].body(0), "body: a name is needed, not 0"),  # type: ignore[arg-type]
     (lambda: steady()[-1].rigid(0), "rigid body: a name is needed, not 0"),  # type: ignore[arg-type]

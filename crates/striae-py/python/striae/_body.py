@@ -219,6 +219,7 @@ class Body(Strict):
         """
         self.name = check.name(name, "name")
         self.mesh = Mesh.of(mesh)
+        check.several(sections, "sections", "a list of sections")
         self.sections = tuple(check.kind(one, Section, "sections") for one in sections)
         self.material = None
         if material is not None or not self.sections:
@@ -257,7 +258,7 @@ class Body(Strict):
         members: numbers of the nodes, a boolean mask over all nodes, or a function that takes
             their positions (length), of shape (n, 3), and returns a mask.
         """
-        with_nodes = self.mesh.with_sets(nodes={name: members})
+        with_nodes = self.mesh.with_sets(nodes={check.name(name, "name"): members})
         chosen = with_nodes.node_sets[name]
         if not len(chosen):
             raise refuse(f"body `{self.name}`", f"no node is in set `{name}`")
@@ -272,7 +273,7 @@ class Body(Strict):
             elements, or a function that takes their centres (length), of shape (m, 3), and returns
             a mask.
         """
-        with_elements = self.mesh.with_sets(elements={name: members})
+        with_elements = self.mesh.with_sets(elements={check.name(name, "name"): members})
         if not len(with_elements.element_sets[name]):
             raise refuse(f"body `{self.name}`", f"no element is in set `{name}`")
         self._replace("mesh", with_elements)

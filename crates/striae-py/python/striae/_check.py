@@ -275,6 +275,14 @@ def mapping(value: Any, path: str) -> None:
         raise TypeError(f"{path}: a mapping is needed, not {type(value).__name__}")
 
 
+def named(value: Optional[Mapping[str, T]], path: str) -> list[tuple[str, T]]:
+    """What a mapping has by its names, nothing if there is none."""
+    if value is None:
+        return []
+    mapping(value, path)
+    return [(name(key, path), one) for key, one in value.items()]
+
+
 def table(value: Any, path: str) -> Table:
     """Numbers, lists of them and further tables by their keys."""
     mapping(value, path)
@@ -344,14 +352,19 @@ def name(value: Any, path: str) -> str:
     return value
 
 
-def folder(value: Any, path: str) -> str:
-    """Path of a folder."""
+def file(value: Any, path: str) -> str:
+    """Path of a file or folder."""
     if not isinstance(value, (str, os.PathLike)):
         raise TypeError(f"{path}: a path is needed, not {value!r}")
-    found = os.fspath(value)
+    return str(os.fspath(value))
+
+
+def folder(value: Any, path: str) -> str:
+    """Path of a folder."""
+    found = file(value, path)
     if not found:
         raise refuse(path, "a path must not be empty; `.` is the present folder")
-    return str(found)
+    return found
 
 
 def kind(value: Any, class_: type[T], path: str) -> T:

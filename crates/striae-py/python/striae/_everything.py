@@ -43,11 +43,13 @@ class Everything(Strict):
         made = native.Everything(None if friction is None else friction._native)
         self.friction = friction
         self.painted: dict[str, Texture] = {}
+        check.several(exclude, "exclude", "a list of surfaces, and of tuples of two,")
         for one in exclude:
             if isinstance(one, tuple) and len(one) != 2:
                 raise refuse("exclude", f"tuples of two surfaces are needed, not of {len(one)}")
             a, b = one if isinstance(one, tuple) else (one, None)
             made = made.excluding(label(a, "exclude"), None if b is None else label(b, "exclude"))
+        check.several(between, "between", "a list of two surfaces and their law each")
         for stated in between:
             if not isinstance(stated, (tuple, list)) or len(stated) != 3:
                 raise refuse("between", "tuples of two surfaces and their law are needed")
@@ -55,6 +57,7 @@ class Everything(Strict):
             law = check.kind(law, Friction, "between")
             made = made.between(label(a, "between"), label(b, "between"), law._native)
             self._paint(a, b)
+        check.several(textures, "textures", "a list of textured surfaces")
         for surface in textures:
             if label(surface, "textures") and _texture(surface) is None:
                 raise TypeError(f"textures: {surface!r} has no texture; see BodySet.textured")

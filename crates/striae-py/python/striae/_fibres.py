@@ -102,6 +102,7 @@ class Fibrous(Material):
         """
         self.ground = check.kind(ground, Material, "ground")
         """Material around the fibres."""
+        check.several(fibres, "fibres", "a list of families")
         self.fibres = tuple(check.kind(one, Fibres, "fibres") for one in fibres)
         """The families."""
         self._native = self.ground._native.with_fibres([one._part() for one in self.fibres])

@@ -62,9 +62,9 @@ def read_measurements(
     skip_lines: lines at the beginning of the file to pass over.
     """
     along = check.word(angle_from, ("across", "along"), "angle_from") == "along"
-    named = [(quantity, str(column)) for quantity, column in (columns or {}).items()]
+    named = [(quantity, str(column)) for quantity, column in check.named(columns, "columns")]
     skipped = check.whole(skip_lines, "skip_lines", 0)
-    file = os.fspath(path)
+    file = check.file(path, "path")
     try:
         with open(file, encoding="utf-8") as opened:
             text = opened.read()
@@ -194,7 +194,7 @@ def fit_friction(
     words: those of the law, by their names, such as ``slip_rule="associated"`` of
         :class:`Orthotropic`.
     """
-    if law not in FITTED:
+    if not isinstance(law, type) or law not in FITTED:
         known = ", ".join(one.__name__ for one in FITTED)
         raise TypeError(f"law: one of the classes {known} is needed, not {law!r}")
     slip = np.radians(_column(angles, None, "angles"))
@@ -223,6 +223,7 @@ def _numbered(
     """Names of the specimens, and the number of that of each reading."""
     if specimen is None:
         return [], [0] * count
+    check.several(specimen, "specimen", "a list of names")
     each = list(specimen)
     if len(each) != count:
         raise refuse("specimen", f"names: {len(each)}, but angles: {count}; each needs one")

@@ -73,7 +73,7 @@ class Mesh(Strict):
             name: members
             if callable(members)
             else numbers[known(members, made.middles, "element", f"element set `{name}`")]
-            for name, members in (element_sets or {}).items()
+            for name, members in check.named(element_sets, "element_sets")
         }
         self._native = made.with_sets(nodes=node_sets, facets=facet_sets, elements=elements)._native
         self._arrays: dict[str, npt.NDArray[Any]] = {}
@@ -238,17 +238,17 @@ class Mesh(Strict):
             mask over all elements, or a function that takes :attr:`middles` and returns a mask.
         """
         found = self._native
-        for name, members in (nodes or {}).items():
-            path = f"node set `{check.name(name, 'node_sets')}`"
+        for name, members in check.named(nodes, "node_sets"):
+            path = f"node set `{name}`"
             found = found.with_node_set(name, chosen(members, self.points, path))
-        for name, members in (facets or {}).items():
-            path = f"facet set `{check.name(name, 'facet_sets')}`"
+        for name, members in check.named(facets, "facet_sets"):
+            path = f"facet set `{name}`"
             if not callable(members) and np.ndim(np.asarray(members)) == 2:
                 found = found.with_facet_set(name, corners_of_facets(members, path))
             else:
                 found = found.with_facets_of(name, chosen(members, self.points, path))
-        for name, members in (elements or {}).items():
-            path = f"element set `{check.name(name, 'element_sets')}`"
+        for name, members in check.named(elements, "element_sets"):
+            path = f"element set `{name}`"
             found = found.with_element_set(name, chosen(members, self.middles, path))
         return Mesh._of(found)
 
@@ -333,4 +333,4 @@ def read_mesh(path: Union[str, os.PathLike[str]], *, elements: Optional[str] = N
     """
     if elements is not None and not isinstance(elements, str):
         raise TypeError(f"elements: a name is needed, not {type(elements).__name__}")
-    return Mesh._of(native.read_mesh(os.fspath(path), elements))
+    return Mesh._of(native.read_mesh(check.file(path, "path"), elements))

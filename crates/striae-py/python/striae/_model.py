@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import copy
-import os
 import warnings
 from collections.abc import Sequence
 from typing import Any, Literal, NamedTuple, Optional, Union
@@ -203,7 +202,7 @@ class Model(Strict):
 
         path: the deck, a TOML file.
         """
-        return cls._of(_told(native.Model.from_deck(os.fspath(path))))
+        return cls._of(_told(native.Model.from_deck(check.file(path, "path"))))
 
     @classmethod
     def from_text(cls, text: str, folder: Path = ".") -> Model:
@@ -212,7 +211,9 @@ class Model(Strict):
         text: the deck, TOML.
         folder: that paths in the deck are relative to.
         """
-        return cls._of(_told(native.Model.from_text(text, os.fspath(folder))))
+        if not isinstance(text, str):
+            raise TypeError(f"text: the text of a deck is needed, not {type(text).__name__}")
+        return cls._of(_told(native.Model.from_text(text, check.file(folder, "folder"))))
 
     def to_deck(self, path: Optional[Path] = None) -> str:
         """The model as the text of a deck, from which :meth:`from_text` and the program make an
@@ -224,7 +225,7 @@ class Model(Strict):
         """
         text = self._compiled().to_deck()
         if path is not None:
-            with open(path, "w", encoding="utf-8") as file:
+            with open(check.file(path, "path"), "w", encoding="utf-8") as file:
                 file.write(text)
         return text
 

@@ -84,6 +84,7 @@ class Rigid(Made):
         torque: target of the torque, on free coordinates (force times length).
         curve: how the targets are approached.
         """
+        check.several(free, "free", "a list of coordinates")
         known = [check.word(one, COORDINATES, "free") for one in free]
         targets: list[Optional[float]] = [None] * 6
         if displacement is not None:
@@ -216,6 +217,7 @@ class RigidBody(Rigid):
         inertia: principal moments about the coordinate axes through the reference point (mass
             times length squared).
         """
+        check.several(tied, "tied", "a list of sets")
         sets = [check.kind(one, BodySet, "tied") for one in tied]
         if not sets:
             raise refuse(f"rigid body `{name}`", "at least one set of nodes is needed")

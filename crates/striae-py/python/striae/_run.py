@@ -262,7 +262,7 @@ class Run(Sequence[Increment]):
         path: the HTML file.
         """
         with self._files() as folder:
-            native.report(folder, os.fspath(path))
+            native.report(folder, check.file(path, "path"))
 
     def picture(
         self,
@@ -295,7 +295,7 @@ class Run(Sequence[Increment]):
         moment = check.optional(time, "time")
         pictured = drawn(field, component, moment, view, range, magnify, hide, width)
         with self._files() as folder:
-            native.picture(folder, os.fspath(path), pictured, None)
+            native.picture(folder, check.file(path, "path"), pictured, None)
 
     def animate(
         self,
@@ -323,7 +323,7 @@ class Run(Sequence[Increment]):
             raise refuse("frame_time", f"0.01 to 60 seconds are needed, not {frame_time!r}")
         pictured = drawn(field, component, None, view, range, magnify, hide, width)
         with self._files() as folder:
-            native.picture(folder, os.fspath(path), pictured, seconds)
+            native.picture(folder, check.file(path, "path"), pictured, seconds)
 
     @contextlib.contextmanager
     def _files(self) -> Iterator[str]:
@@ -433,8 +433,7 @@ def drawn(
         span = check.vector(limits, "range", 2)
         if not span[0] < span[1]:
             raise refuse("range", f"ascending limits are needed, not {limits!r}")
-    if isinstance(hide, str):
-        raise TypeError(f"hide: a list of names is needed, not {hide!r}")
+    check.several(hide, "hide", "a list of names")
     if check.whole(width, "width", 100) > 8000:
         raise refuse("width", f"it must be at most 8000, but is {width}")
     return (
