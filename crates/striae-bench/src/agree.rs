@@ -9,9 +9,9 @@ use std::{
 };
 use striae_contact::evaluation::Evaluation;
 use striae_deck as deck;
+use striae_model::{Backend, Model};
 use striae_solve::{
     drive::{Continue, Observer, Progress, run},
-    model::{Backend, Model},
     newton::{Increment, IterationObserver},
     norms::Norms,
     outcome::CutBack,

@@ -11,10 +11,10 @@ use std::{
     time::Instant,
 };
 use striae_contact::evaluation::Evaluation;
+use striae_model::Backend;
 use striae_output::summary::peak_rss_mib;
 use striae_solve::{
     drive::{Continue, Observer, Progress, run},
-    model::Backend,
     newton::{Increment, IterationObserver, LinearWork},
     norms::Norms,
     outcome::{CutBack, Ending},

@@ -12,10 +12,10 @@ use striae_contact::{
     side::Side,
 };
 use striae_mesh::NodeId;
+use striae_model::Backend;
 use striae_solve::{
     assembly::{self, ElementPlaces, Setting, StepContext, Trial, assemble},
     layout::{Extent, Layout},
-    model::Backend,
     problem::Problem,
     state::State,
 };

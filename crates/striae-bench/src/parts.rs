@@ -17,10 +17,10 @@ use striae_law::{
     bulk::{LameConstants, Material},
     friction::Friction,
 };
+use striae_model::Backend;
 use striae_solve::{
     assembly::{ElementPlaces, Setting, StepContext, Trial},
     layout::{Extent, Layout},
-    model::Backend,
     problem::Problem,
     state::State,
 };
@@ -160,7 +160,7 @@ fn of_scene(group: &str, size: usize) -> Results {
 }
 
 /// Elements of the bodies without contact.
-fn assembly(model: &striae_solve::model::Model) -> Result<Value, Box<dyn Error>> {
+fn assembly(model: &striae_model::Model) -> Result<Value, Box<dyn Error>> {
     let mut tangent = Tangent::from(scene::stiffness(model)?);
     let mut partition = Partition::from(tangent.bodies.structure());
     let mut bodies = model.clone();

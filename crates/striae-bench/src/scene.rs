@@ -5,10 +5,10 @@ use striae_condensed::{Partition, Tangent};
 use striae_contact::segment::Derivatives;
 use striae_deck as deck;
 use striae_mesh::generate::CappedBlock;
+use striae_model::{Backend, Model};
 use striae_solve::{
     assembly::{Assembled, Contact, ElementPlaces, Setting, StepContext, Trial, assemble},
     layout::{Extent, Layout},
-    model::{Backend, Model},
     outcome::CutBack,
     problem::Problem,
     state::State,

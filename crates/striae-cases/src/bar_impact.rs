@@ -4,7 +4,7 @@
 //! a rebound with the velocity and the energy of the flight.
 
 use striae_figure::{Axis, Color, Content, Figure, Panel, Series, Width};
-use striae_solve::model::{ContactMass, Procedure};
+use striae_model::{ContactMass, Procedure};
 
 use super::study::{Run, Study};
 use crate::failure::Failure;

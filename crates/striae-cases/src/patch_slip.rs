@@ -168,7 +168,7 @@ fn panel(run: &Run, name: &str) -> Panel {
 mod tests {
     use super::*;
     use striae_deck as deck;
-    use striae_solve::model::LoadKind;
+    use striae_model::LoadKind;
 
     #[test]
     fn the_decks_carry_the_closed_form() {

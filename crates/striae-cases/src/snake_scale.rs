@@ -14,7 +14,8 @@
 use striae_contact::side::Side;
 use striae_figure::{Axis, Color, Content, Figure, Marker, Panel, Series, Width};
 use striae_mesh::Vec3;
-use striae_solve::{model::Increments, outcome::Ending};
+use striae_model::Increments;
+use striae_solve::outcome::Ending;
 
 use super::{
     measure::{MeasuredNode, surface_nodes},

@@ -7,8 +7,9 @@ use std::{
 
 use striae_deck::{self as deck, Deck};
 use striae_figure::Figure;
+use striae_model::Enforcement;
 use striae_output::{Existing, history::Table, summary::Summary};
-use striae_solve::{model::Enforcement, outcome::Ending};
+use striae_solve::outcome::Ending;
 
 use striae::{Finished, Simulation};
 

@@ -7,7 +7,8 @@
 
 use std::time::{Duration, Instant};
 
-use striae_solve::{drive::Progress as Position, model::Model};
+use striae_model::Model;
+use striae_solve::drive::Progress as Position;
 
 /// Weight of the last increment in the pace.
 const WEIGHT: f64 = 0.2;

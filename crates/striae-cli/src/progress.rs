@@ -7,7 +7,8 @@ use std::io::{IsTerminal, Write};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use striae::{Converged, Next, Observer};
 use striae_contact::{evaluation::Evaluation, unknowns::Status};
-use striae_solve::{drive::Progress as Position, model::Model, norms::Norms, outcome::CutBack};
+use striae_model::Model;
+use striae_solve::{drive::Progress as Position, norms::Norms, outcome::CutBack};
 
 use crate::forecast::{Forecast, clock};
 

@@ -59,7 +59,8 @@ mod together {
 
     use striae::{
         Ranks,
-        solve::{model::Backend, newton::SharedSolver, team::Team},
+        model::Backend,
+        solve::{newton::SharedSolver, team::Team},
     };
     use striae_petsc::{Choice, PetscSolver};
 

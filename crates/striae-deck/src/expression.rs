@@ -1,8 +1,8 @@
-//! Arithmetic of parameters: `= 2*(E + 1e3)/L^2`, read as `striae_solve::formula` says.
+//! Arithmetic of parameters: `= 2*(E + 1e3)/L^2`, read as `striae_model::formula` says.
 //!
 //! Angles are in degrees, as everywhere in decks.
 
-use striae_solve::formula::{Angles, Name, read};
+use striae_model::formula::{Angles, Name, read};
 
 /// True for a text that is to be computed.
 pub(crate) fn is_expression(text: &str) -> bool {

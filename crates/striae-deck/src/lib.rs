@@ -42,8 +42,8 @@ pub use write::{Unstated, write};
 use faults::FaultList;
 use std::path::Path;
 use striae_law::friction::Friction;
+use striae_model::Model;
 use striae_output::Output;
-use striae_solve::model::Model;
 use toml::de::{DeTable, DeValue};
 
 /// A deck that has been found valid.

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use striae_deck::{Deck, Faults, parse};
 use striae_mesh::Vec3;
-use striae_solve::model::{Actuation, ActuationKind, Curve};
+use striae_model::{Actuation, ActuationKind, Curve};
 
 /// A bar of two elements, the right one a section with fibres, with actuations in two steps.
 fn read(first: &str, second: &str) -> Result<Deck, Faults> {
@@ -206,7 +206,7 @@ fn fibres_that_are_not_there_cannot_be_actuated() {
     let deck = read("", "").unwrap_or_else(|faults| panic!("{faults}"));
     let mut model = deck.model;
     let own = Actuation {
-        body: striae_solve::model::BodyId(0),
+        body: striae_model::BodyId(0),
         section: Some(0),
         kind: ActuationKind::FibreStrain(0.1),
         curve: Curve::Ramp,

@@ -6,7 +6,8 @@ use std::path::Path;
 
 use striae_deck::{parse, write};
 use striae_mesh::Vec3;
-use striae_solve::{model::Axes, report::reactions};
+use striae_model::Axes;
+use striae_solve::report::reactions;
 
 const BLOCK: &str = r#"
 title = "a block"

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use striae_deck::{Deck, Faults, parse, write};
-use striae_solve::model::{BodyId, CavityContent, CavityFilling, CavityId, Curve};
+use striae_model::{BodyId, CavityContent, CavityFilling, CavityId, Curve};
 
 /// A slice of a tube with a cavity.
 fn read(held: &str, first: &str, second: &str) -> Result<Deck, Faults> {

@@ -9,7 +9,7 @@ use std::{collections::BTreeSet, path::Path};
 use striae_deck::{parse, write};
 use striae_law::friction::Friction;
 use striae_mesh::Face;
-use striae_solve::model::{BodyId, ContactSurface, Initial, Model, Pair, RigidId};
+use striae_model::{BodyId, ContactSurface, Initial, Model, Pair, RigidId};
 use striae_surface::texture::{Lines, Paint};
 
 /// A tread on a carcass, with a gap between them, above a road.

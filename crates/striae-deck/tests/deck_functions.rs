@@ -155,7 +155,7 @@ displacement = [
     );
     let read = |deck: &str| parse(deck, "deck", folder.path());
     let model = read(&deck).unwrap().model;
-    let plan = &striae_solve::plan::plans(&model)[0];
+    let plan = &striae_model::plan::plans(&model)[0];
     let moment = |time: f64| plan.start.later(time / 4.0);
     let [way, wave] = [0, 1].map(|at| &model.steps[0].displacements[at].curve);
     for (time, expected) in [

@@ -3,14 +3,11 @@
 use std::path::Path;
 
 use striae_deck::{Deck, FaultKind, Faults, parse};
-use striae_solve::{
-    assembly::StepContext,
+use striae_model::{
+    ClosedGaps, Initial, Model, PairId,
     initial::{InitialFault, fits, may_meet},
-    model::{ClosedGaps, Initial, Model, PairId},
-    offsets::Offsets,
-    problem::Problem,
-    state::State,
 };
+use striae_solve::{assembly::StepContext, offsets::Offsets, problem::Problem, state::State};
 
 /// A block above another one, pressed down.
 fn deck(z: f64, initial: &str) -> Result<Deck, Faults> {

@@ -12,12 +12,12 @@ use striae_law::{
     friction::Friction,
 };
 use striae_mesh::{CellKind, NodeId, Region, Vec3, generate::Block};
-use striae_output::FieldOutput;
-use striae_solve::model::{
+use striae_model::{
     Backend, BodyId, ContactSurface, Curve, Enforcement, Formulation, Freedom, Increments,
     LoadExtent, LoadKind, Mover, PairId, Procedure, RigidId, RigidShape, Solver, Strategy,
     Velocity,
 };
+use striae_output::FieldOutput;
 
 use striae_surface::texture::{Field, Lines, Paint};
 

@@ -3,10 +3,8 @@
 use std::path::Path;
 use striae_deck::parse;
 use striae_mesh::Vec3;
-use striae_solve::{
-    model::{ContactSurface, Model},
-    problem::Problem,
-};
+use striae_model::{ContactSurface, Model};
+use striae_solve::problem::Problem;
 use striae_surface::texture::Paint;
 
 /// A cube whose node numbers rise downwards, one of them used by no element, with

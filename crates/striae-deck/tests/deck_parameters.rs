@@ -3,7 +3,7 @@
 use std::{fs, path::Path};
 
 use striae_deck::{Faults, Setting, parse, parse_with, read, read_with};
-use striae_solve::model::Model;
+use striae_model::Model;
 
 const DECK: &str = r#"
 title = "A block on a floor"

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use striae_deck::{Deck, Faults, parse};
 use striae_mesh::ElementId;
-use striae_solve::model::{BodySection, Formulation};
+use striae_model::{BodySection, Formulation};
 
 /// A bar of three elements along `x` with the lines given in its table.
 fn read(body: &str, steps: &str) -> Result<Deck, Faults> {

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use striae_deck::{Deck, Faults, parse, write};
 use striae_mesh::{NodeId, Vec3};
-use striae_solve::model::{BodyId, RigidId, Spring, SpringEnd, SpringLine, SpringRest};
+use striae_model::{BodyId, RigidId, Spring, SpringEnd, SpringLine, SpringRest};
 
 /// A block and a rigid wheel with springs.
 fn read(springs: &str) -> Result<Deck, Faults> {

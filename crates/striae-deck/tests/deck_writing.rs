@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use striae_deck::{Deck, parse, read, write};
-use striae_solve::model::{Initial, Model};
+use striae_model::{Initial, Model};
 
 /// All decks of the published cases.
 fn published() -> Vec<PathBuf> {

@@ -7,11 +7,11 @@ use std::{f64::consts::PI, path::Path};
 use driven::last;
 use striae_contact::side::Side;
 use striae_deck::parse;
-use striae_solve::{
+use striae_model::{
+    PairId,
     initial::{conforms, fits},
-    model::PairId,
-    report::pairs,
 };
+use striae_solve::report::pairs;
 
 /// A solid shaft of radius 0.5 drawn with a radius of its own in a hub of twice the radius, in
 /// plane stress. `around` are the facets of the shaft, over 8, and those of the hub.

@@ -1,7 +1,9 @@
 //! Declared laws: each is made of values within its ranges, keeps them, and is made of them again.
 
-use crate::bulk;
-use crate::friction::{BY_PRESSURE, BY_RATE, BY_SLIP, BY_STATE, DECAY, LAWS};
+use crate::{
+    bulk,
+    friction::{BY_PRESSURE, BY_RATE, BY_SLIP, BY_STATE, DECAY, LAWS},
+};
 use striae_declared::{Bound, Declared, Form, Kind, Parameter, Value, Values};
 
 /// A value within the range of a parameter that any law accepts.

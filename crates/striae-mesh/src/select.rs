@@ -183,8 +183,10 @@ fn nearest([a, b, c]: [Vec3; 3], place: &Vec3) -> Vec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::CellKind;
-    use crate::generate::{Annulus, Block, HalfCylinder};
+    use crate::{
+        CellKind,
+        generate::{Annulus, Block, HalfCylinder},
+    };
 
     fn block(cells: CellKind) -> Mesh {
         let block = Block {

@@ -2,8 +2,7 @@
 //!
 //! No result may depend on the numbering or on the frame; tests use these maps to check that.
 
-use crate::random::Random;
-use crate::{CellBlock, ElementId, Face, Mesh, MeshError, NodeId, Sets, Vec3};
+use crate::{CellBlock, ElementId, Face, Mesh, MeshError, NodeId, Sets, Vec3, random::Random};
 use nalgebra::Rotation3;
 
 /// New numbers of nodes and elements, by old number.

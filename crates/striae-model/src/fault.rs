@@ -310,13 +310,13 @@ pub enum FaultKind {
     #[error("{cause}")]
     Unpainted {
         /// Reason.
-        cause: striae_solve::pair_geometry::PairError,
+        cause: crate::pair_geometry::PairError,
     },
     /// A tie that does not hold.
     #[error("{fault}")]
     Tie {
         /// Reason.
-        fault: striae_solve::tie::TieFault,
+        fault: crate::tie::TieFault,
     },
     /// A pair joins what is tied.
     #[error(
@@ -372,7 +372,7 @@ pub enum FaultKind {
     #[error("{fault}")]
     Initial {
         /// Fault of the initial fit.
-        fault: striae_solve::initial::InitialFault,
+        fault: crate::initial::InitialFault,
     },
     /// A displacement condition without a component.
     #[error(

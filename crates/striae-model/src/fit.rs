@@ -1,16 +1,13 @@
 //! Faults that only meshes in their places show: gaps and overlaps, closed if a pair requests it,
 //! otherwise judged; textures without a direction; nodes of ties moved to their places.
 
-use striae_solve::{
+use crate::{
+    fault::{Fault, FaultKind},
     initial::{InitialFault, close, crowded, fault, fits, wrong_way},
     model::{Initial, Model, PairId},
     painting,
-    tie::placed,
-};
-
-use crate::{
-    fault::{Fault, FaultKind},
     path::Path,
+    tie::placed,
 };
 
 /// The model with its gaps closed, as its pairs request, and with dependent nodes of ties at their

@@ -1,4 +1,4 @@
-//! Description of a simulation: the parts of a model, builders by name, and validation.
+//! Model of a simulation: its data, what follows from them alone, builders by name, and validation.
 //!
 //! ```text
 //! model("title").body(..).pair(..).step(..)   names of bodies, sets and surfaces
@@ -6,17 +6,35 @@
 //! Model::faults() -> [Fault { path, kind }]    every fault there is, `pairs[0].friction: ...`
 //! ```
 //!
-//! No file format is known here. A deck is read by `striae-deck`, which maps the paths of faults
+//! Conditions in force ([`plan`]), pairs at rest ([`pair_geometry`], [`initial`](mod@initial)),
+//! [ties](mod@tie) and loads on faces ([`load`]) follow from a model before anything is solved.
+//! Neither a file format nor a solver is known here. A deck is read by `striae-deck`, which maps the paths of faults
 //! back to lines and columns.
 
+pub mod actuation;
+pub mod axes;
 mod build;
+pub mod cavity;
 mod check;
+mod curve;
 mod fault;
 mod fit;
+pub mod formula;
+pub mod function;
 mod general;
+pub mod initial;
+pub mod load;
+mod model;
 mod motions;
 mod names;
+pub mod node;
+pub mod painting;
+pub mod pair_geometry;
 mod path;
+pub mod plan;
+mod sections;
+pub mod solid;
+pub mod tie;
 
 pub use build::{
     BodyBuilder, CavityBuilder, Component, Components, ModelBuilder, PairBuilder, RigidBuilder,
@@ -32,7 +50,7 @@ pub use check::{
 pub use fault::{Fault, FaultKind, Faults};
 pub use fit::fitted;
 pub use general::{Everything, FEATURE_ANGLE, Lowered, Origin, everything};
+pub use model::*;
 pub use motions::RigidMotions;
 pub use names::nearest;
 pub use path::{Path, Segment};
-pub use striae_solve::model::*;

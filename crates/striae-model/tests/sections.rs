@@ -2,8 +2,7 @@
 
 use striae_law::bulk::{LameConstants, Material};
 use striae_mesh::generate::Block;
-use striae_model::{body, model, section, step};
-use striae_solve::model::Formulation;
+use striae_model::{Formulation, body, model, section, step};
 
 #[test]
 fn sections_have_the_formulation_of_their_body_unless_they_have_their_own() {

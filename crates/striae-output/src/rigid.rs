@@ -9,12 +9,8 @@ use std::path::{Path, PathBuf};
 
 use striae_contact::{pair::Geometry, texture::SideTexture};
 use striae_mesh::{NodeId, Vec3};
-use striae_solve::{
-    model::{Freedom, RigidId, RigidShape},
-    plan::starts,
-    problem::Problem,
-    state::State,
-};
+use striae_model::{Freedom, RigidId, RigidShape, plan::starts};
+use striae_solve::{problem::Problem, state::State};
 use striae_surface::{node::SurfaceNode, normal::nodal_normals};
 
 use crate::{

@@ -1,10 +1,10 @@
 //! The row of an increment in a history: resultants, reactions, motions and energies.
 
 use striae_mesh::Vec3;
+use striae_model::Procedure;
 use striae_solve::{
     drive::Progress,
     dynamics::momentum,
-    model::Procedure,
     newton::Increment,
     problem::Problem,
     report::{

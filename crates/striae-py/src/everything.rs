@@ -1,10 +1,7 @@
 //! Contact of everything under construction.
 
 use pyo3::prelude::*;
-use striae::{
-    model::{self, Initial},
-    solve::model::ClosedGaps,
-};
+use striae::model::{self, ClosedGaps, Initial};
 
 use crate::{friction::Friction, texture::Texture};
 

@@ -10,15 +10,9 @@ use striae::{
     Error,
     advice::{Advice, Remark},
     deck,
-    model::{self, SectionBuilder, extended},
+    model::{self, Backend, ContactMass, Formulation, SectionBuilder, extended, initial::fits},
     output::Output,
-    solve::{
-        initial::fits,
-        model::{Backend, ContactMass, Formulation},
-        newton::estimate,
-        problem::Problem,
-        warning::warnings_at_start,
-    },
+    solve::{newton::estimate, problem::Problem, warning::warnings_at_start},
 };
 
 use crate::{

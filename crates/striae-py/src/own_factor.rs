@@ -12,8 +12,8 @@ use striae::{
     law::friction::{
         Factor, FactorBatch, FactorFailure, FactorPoints, FactorRange, Friction, RequiredTextures,
     },
+    model::Model,
     nalgebra::Vector3,
-    solve::model::Model,
 };
 
 use crate::raised::Raised;

@@ -1,10 +1,7 @@
 //! Contact pairs under construction.
 
 use pyo3::prelude::*;
-use striae::{
-    model::{self, Initial, PairBuilder, SideBuilder},
-    solve::model::{ClosedGaps, Enforcement},
-};
+use striae::model::{self, ClosedGaps, Enforcement, Initial, PairBuilder, SideBuilder};
 
 use crate::{friction::Friction, step::Along, texture::Texture};
 

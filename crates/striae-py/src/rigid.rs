@@ -4,8 +4,7 @@ use numpy::PyReadonlyArray2;
 use pyo3::{exceptions::PyValueError, prelude::*};
 use striae::{
     mesh::{NodeId, Vec3},
-    model::{self, RigidBuilder},
-    solve::model::RigidInertia,
+    model::{self, RigidBuilder, RigidInertia},
 };
 
 use crate::{

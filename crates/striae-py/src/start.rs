@@ -7,9 +7,9 @@
 use std::collections::BTreeMap;
 
 use pyo3::prelude::*;
-use striae::{
-    model::Model,
-    solve::plan::{Prescription, StepPlan, plans},
+use striae::model::{
+    Model,
+    plan::{Prescription, StepPlan, plans},
 };
 
 use crate::{

@@ -5,9 +5,9 @@
 use pyo3::{exceptions::PyValueError, prelude::*};
 use striae::model::{
     ActuationKind, Axes, CavityContent, Clock, Component, Course, Curve, Freedom, Function,
-    History, Increments, LoadExtent, LoadKind, StepBuilder, Value, equal_increments, step,
+    History, Increments, LoadExtent, LoadKind, StepBuilder, Value, actuation::strain_in_axes,
+    equal_increments, step,
 };
-use striae::solve::actuation::strain_in_axes;
 
 use crate::{fault::refused, friction::Friction};
 

@@ -12,16 +12,11 @@ use striae_law::{
     friction::Friction,
 };
 use striae_mesh::{Vec3, generate::Block};
-use striae_solve::{
-    model::{
-        Backend, Body, BodyId, ContactMass, ContactSurface, Enforcement, Formulation, Initial,
-        Model, Pair, RigidId, RigidShape, RigidSurface, Solver, Strategy,
-    },
-    problem::Problem,
-    share::Division,
-    state::State,
-    team::Team,
+use striae_model::{
+    Backend, Body, BodyId, ContactMass, ContactSurface, Enforcement, Formulation, Initial, Model,
+    Pair, RigidId, RigidShape, RigidSurface, Solver, Strategy,
 };
+use striae_solve::{problem::Problem, share::Division, state::State, team::Team};
 
 /// A rank that others have nothing to say to.
 #[derive(Debug)]

@@ -50,11 +50,11 @@ pub use trial::Trial;
 
 use crate::{
     layout::Layout,
-    node::GlobalNode,
     norms::Norms,
     outcome::CutBack,
     state::{NodalForces, State},
 };
+use striae_model::node::GlobalNode;
 
 /// Data that stay constant during the iterations of an increment.
 #[derive(Clone, Copy, Debug)]

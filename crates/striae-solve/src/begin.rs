@@ -6,15 +6,14 @@ use crate::{
     assembly::StepContext,
     dynamics::{scheme, wrenches},
     mass::kinetic_energy,
-    model::Mover,
     newton::{Workspace, assembled_at_start},
-    node::GlobalNode,
     outcome::CutBack,
     problem::Problem,
     rigid::fitted_velocity,
     spring::add_dashpots,
     state::State,
 };
+use striae_model::{Mover, node::GlobalNode};
 
 /// The state a step starts from: velocities as it states them, and the accelerations from `M a =
 /// f_ext - f_int + f_con`; at rest if the step has no inertia. Work of sudden changes of velocity

@@ -3,10 +3,9 @@
 use striae_element::{Elements, redistributed};
 use striae_mesh::ElementId;
 
-use crate::{
-    composition::Composition,
-    model::{Body, Model},
-};
+use striae_model::{Body, Model};
+
+use crate::composition::Composition;
 
 /// Mass matrices of the elements of a body, with the mass of contact nodes moved if requested.
 #[derive(Clone, Debug)]

@@ -7,11 +7,11 @@
 
 use std::ops::Range;
 
-use striae_element::{ElementFault, Elements};
-use striae_law::bulk::{LameConstants, Material};
-use striae_mesh::{ElementId, Face};
+use striae_element::Elements;
 
-use crate::model::{Body, BodySection, Formulation};
+use striae_mesh::ElementId;
+
+use striae_model::Body;
 
 /// Sections and places of the variables of the elements of a body.
 #[derive(Clone, Debug)]
@@ -26,7 +26,7 @@ pub struct Composition {
 
 /// Materials of all elements of a body.
 #[derive(Clone, Debug)]
-pub(crate) struct Materials {
+pub struct Materials {
     /// Sections that have elements.
     used: Vec<usize>,
     /// Shear modulus at rest of the stiffest material.
@@ -35,7 +35,7 @@ pub(crate) struct Materials {
 
 impl Materials {
     /// Materials of a body.
-    pub(crate) fn of(body: &Body) -> Self {
+    pub fn of(body: &Body) -> Self {
         let used = body.used_sections();
         let shear = used.iter();
         let shear = shear.map(|section| body.material_of(*section).lame_constants().shear);
@@ -57,7 +57,7 @@ pub struct Resistance {
 
 impl Composition {
     /// Composition of a body, or of the part that a rank has, with its reference elements.
-    pub(crate) fn new(body: &Body, elements: &Elements, materials: Materials) -> Self {
+    pub fn new(body: &Body, elements: &Elements, materials: Materials) -> Self {
         let sections = body.section_of_elements();
         let counts = elements.iter().enumerate().map(|(at, element)| {
             let section = sections.get(at).map_or(0, |section| *section as usize);
@@ -122,105 +122,5 @@ impl Composition {
             Some([first, end, ..]) => *first..*end,
             _ => 0..0,
         }
-    }
-}
-
-impl Body {
-    /// Names of what points of a body remember that is written with the results.
-    pub fn remembered(&self) -> Vec<String> {
-        self.remembered_in(&self.used_sections())
-    }
-
-    /// Names of the internal variables of points in some sections.
-    pub(crate) fn remembered_in(&self, sections: &[usize]) -> Vec<String> {
-        let mut names = Vec::new();
-        for &section in sections {
-            for field in self.material_of(section).fields() {
-                if !names.contains(&field.name) {
-                    names.push(field.name);
-                }
-            }
-        }
-        names
-    }
-
-    /// Section of every element; empty where the body has none.
-    pub fn section_of_elements(&self) -> Vec<u32> {
-        if self.sections.is_empty() {
-            return Vec::new();
-        }
-        let mut sections = vec![0; self.mesh.element_count()];
-        for (number, section) in (1..).zip(&self.sections) {
-            for element in &section.elements {
-                sections[element.index()] = number;
-            }
-        }
-        sections
-    }
-
-    /// The reference elements, each of its section's formulation.
-    pub(crate) fn elements(&self) -> Result<Elements, ElementFault> {
-        let sections = self.section_of_elements();
-        let section = |element: usize| sections.get(element).map_or(0, |at| *at as usize);
-        let formulation = |element: ElementId| self.formulation_of(section(element.index()));
-        Elements::of_sections(&self.mesh, formulation)
-    }
-
-    /// Material of a section, counted from 1; 0 is the body's own.
-    pub fn material_of(&self, section: usize) -> &Material {
-        self.part(section).map_or(&self.material, |of| &of.material)
-    }
-
-    /// Formulation of a section, counted from 1; 0 is the body's own.
-    pub fn formulation_of(&self, section: usize) -> Formulation {
-        self.part(section)
-            .map_or(self.formulation, |of| of.formulation)
-    }
-
-    /// Density of a section, counted from 1; 0 is the body's own.
-    pub fn density_of(&self, section: usize) -> f64 {
-        self.part(section).map_or(self.density, |of| of.density)
-    }
-
-    /// Numbers of the sections that have elements, the body's own material being 0.
-    pub fn used_sections(&self) -> Vec<usize> {
-        let own = self.section_of_elements();
-        let uses_own = own.is_empty() || own.contains(&0);
-        let first = usize::from(!uses_own);
-        (first..=self.sections.len()).collect()
-    }
-
-    /// Young's modulus at rest behind faces; where they differ in it, that of the mean
-    /// compliance, `sum A / sum A/E`.
-    pub fn modulus_at(&self, faces: &[Face]) -> f64 {
-        let sections = self.section_of_elements();
-        let (mut areas, mut compliances) = (0.0, 0.0);
-        let mut range = [f64::INFINITY, 0.0_f64];
-        for face in faces {
-            let section = sections.get(face.element.index());
-            let material = self.material_of(section.map_or(0, |at| *at as usize));
-            let LameConstants { lambda, shear } = material.lame_constants();
-            let modulus = shear * (3.0 * lambda + 2.0 * shear) / (lambda + shear);
-            let area = self.mesh.area_vector(*face).norm();
-            range = [range[0].min(modulus), range[1].max(modulus)];
-            areas += area;
-            compliances += area / modulus;
-        }
-        if range[0] == range[1] {
-            range[0]
-        } else {
-            areas / compliances
-        }
-    }
-
-    /// Returns whether it has mass.
-    pub fn has_mass(&self) -> bool {
-        let used = self.used_sections();
-        used.iter().any(|section| self.density_of(*section) > 0.0)
-    }
-
-    fn part(&self, section: usize) -> Option<&BodySection> {
-        let index = section.checked_sub(1)?;
-        self.sections.get(index)
     }
 }

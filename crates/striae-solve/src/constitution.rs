@@ -4,7 +4,8 @@ use striae_element::{Driven, Element};
 use striae_law::bulk::Material;
 use striae_mesh::{ElementId, Vec3};
 
-use crate::{actuation::SectionActuation, problem::Problem, state::State};
+use crate::{problem::Problem, state::State};
+use striae_model::actuation::SectionActuation;
 
 impl Problem {
     /// Material of an element of a body.

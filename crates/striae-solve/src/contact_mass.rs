@@ -1,6 +1,6 @@
 //! Nodes whose mass is moved to others.
 
-use crate::model::{ContactMass, ContactSurface, Model};
+use striae_model::{ContactMass, ContactSurface, Model};
 
 /// Nodes of contact surfaces of bodies whose mass is redistributed, but for elements
 /// that have no other nodes.

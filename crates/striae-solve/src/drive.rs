@@ -14,8 +14,6 @@ use crate::{
     audit::{doubts, jump},
     begin::begin,
     freedom::{Bridged, Friction, free_motion, free_motion_in, slipping, worth_stabilising},
-    initial::other_name,
-    model::{Model, PairId, Procedure},
     newton::{Increment, IterationObserver, Memory, Workspace, advance, assembled_at},
     outcome::{CutBack, Ending, Remedy},
     problem::Problem,
@@ -24,6 +22,7 @@ use crate::{
     state::State,
     support::{Way, unsupported},
 };
+use striae_model::{Model, PairId, Procedure, initial::other_name};
 
 /// Told of everything that happens in a run.
 pub trait Observer: IterationObserver {

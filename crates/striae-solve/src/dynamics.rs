@@ -23,12 +23,11 @@ pub use crate::mass::{kinetic_energy, mass_times, momentum};
 use striae_mesh::Vec3;
 
 use crate::{
-    model::Procedure,
-    node::GlobalNode,
     problem::Problem,
     rigid::{Pose, Wrench},
     state::State,
 };
+use striae_model::{Procedure, node::GlobalNode};
 
 /// Parameters of the method.
 #[derive(Clone, Copy, Debug, PartialEq)]

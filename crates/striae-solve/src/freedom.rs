@@ -23,12 +23,12 @@ use striae_surface::node::SurfaceNode;
 use crate::{
     assembly::StepContext,
     interference::{Positions, configuration, thickness},
-    node::GlobalNode,
     outcome::{FreeMotion, FreeMover},
     problem::Problem,
     spring::Link,
     state::State,
 };
+use striae_model::node::GlobalNode;
 
 /// Contact nodes at which friction holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

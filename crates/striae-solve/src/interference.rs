@@ -9,7 +9,8 @@ use striae_contact::{
 };
 use striae_mesh::{NodeId, Vec3};
 
-use crate::{pair_geometry::thickness_with, problem::Problem, rigid::Pose, state::State};
+use crate::{problem::Problem, rigid::Pose, state::State};
+use striae_model::pair_geometry::thickness_with;
 
 /// Positions of nodes and rigid bodies.
 #[derive(Clone, Copy, Debug)]

@@ -14,8 +14,9 @@ use striae_contact::{selection::Selection, side::Side, unknown::Unknown};
 use striae_sparse::{Supervariable, Tier};
 use striae_surface::node::SurfaceNode;
 
-use crate::{node::GlobalNode, problem::Problem};
+use crate::problem::Problem;
 pub(crate) use growth::united;
+use striae_model::node::GlobalNode;
 
 /// Surface nodes with traction unknowns.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]

@@ -2,7 +2,8 @@
 
 use striae_mesh::{ElementId, Vec3};
 
-use crate::{node::GlobalNode, problem::Problem, state::State};
+use crate::{problem::Problem, state::State};
+use striae_model::node::GlobalNode;
 
 /// `M v`, node by node; collective.
 pub fn mass_times(problem: &Problem, vectors: &[Vec3]) -> Vec<Vec3> {

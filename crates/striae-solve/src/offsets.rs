@@ -27,10 +27,10 @@ use striae_contact::{
 
 use crate::{
     interference::{Positions, configuration, thickness},
-    model::{Initial, InterferenceFit, Moment},
     problem::Problem,
     state::State,
 };
+use striae_model::{Initial, InterferenceFit, Moment};
 
 /// Offsets of the gaps of a pair in a step.
 #[derive(Clone, Debug, Default, PartialEq)]

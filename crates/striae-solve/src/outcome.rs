@@ -49,7 +49,7 @@ pub enum CutBack {
         /// Facet set.
         set: String,
         /// Error of the load.
-        error: crate::load::LoadError,
+        error: striae_model::load::LoadError,
     },
     /// The ends of a spring have met.
     #[error(

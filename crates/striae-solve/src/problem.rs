@@ -21,19 +21,21 @@ use striae_mesh::{Face, NodeId, Vec3};
 
 use crate::{
     body_mass::{BodyMass, masses},
-    cavity::CavitySurface,
     composition::Composition,
-    model::Model,
-    node::GlobalNode,
-    pair_geometry::{PairError, PairGeometry},
-    plan::{StepPlan, plans},
     share::Share,
     skin::Skin,
     spring::Link,
-    tie::{TieFault, Ties, first_nodes},
 };
 use contact_facet::contact_facets;
 use shared_nodes::{refuse_twice_collocated, shared_nodes};
+use striae_model::{
+    Model,
+    cavity::CavitySurface,
+    node::GlobalNode,
+    pair_geometry::{PairError, PairGeometry},
+    plan::{StepPlan, plans},
+    tie::{TieFault, Ties, first_nodes},
+};
 
 /// A model with what follows from it.
 #[derive(Clone, Debug)]
@@ -180,7 +182,7 @@ impl Problem {
         let plans = plans(&model);
         let at = (&reference[..], &plans[..]);
         Ok(Self {
-            cavities: crate::cavity::surfaces(&model, &first_node, at),
+            cavities: striae_model::cavity::surfaces(&model, &first_node, at),
             contact_facets: contact_facets(&pairs),
             shared_nodes,
             masses: masses(&model, &elements, &compositions, (&first_node, &massless)),

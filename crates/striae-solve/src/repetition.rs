@@ -11,13 +11,13 @@ use crate::{
     assembly::StepContext,
     begin::begin,
     drive::{Continue, Observer, Progress},
-    model::Backend,
     newton::{Increment, IterationObserver, Workspace, advance},
     norms::{Norms, larger},
     outcome::CutBack,
     problem::Problem,
     state::State,
 };
+use striae_model::Backend;
 
 /// An observer that makes every increment of a run again.
 pub struct Repetition<'a> {

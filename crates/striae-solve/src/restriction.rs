@@ -18,8 +18,6 @@ use std::sync::Arc;
 use striae_contact::{pair::Geometry, side::Side};
 
 use crate::{
-    model::{Cavity, Model, Spring},
-    pair_geometry::PairGeometry,
     problem::{Frame, Problem, ProblemError},
     share::{Division, Share},
     team::Team,
@@ -28,6 +26,7 @@ use agreement::agreed;
 use holding::holding;
 use local::local;
 use numbers::Numbers;
+use striae_model::{Cavity, Model, Spring, pair_geometry::PairGeometry};
 
 impl Problem {
     /// Prepares what this rank of a team holds of a model that is divided. All ranks call it

@@ -19,10 +19,7 @@ use serde::{Deserialize, Serialize};
 use striae_contact::placement::Placement;
 use striae_mesh::Vec3;
 
-use crate::{
-    model::{Model, RigidInertia},
-    node::GlobalNode,
-};
+use striae_model::{Model, RigidInertia, node::GlobalNode};
 
 /// Pose of a rigid body.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

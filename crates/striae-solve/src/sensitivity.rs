@@ -31,7 +31,6 @@ use crate::{
     assembly::StepContext,
     begin::begin,
     drive::{Progress, look_farther},
-    model::{Body, Procedure},
     newton::{
         Course, Increment, Workspace,
         neighbour::{Base, Moved, Neighbour, Size, linearise, moved},
@@ -40,6 +39,7 @@ use crate::{
     problem::Problem,
     state::State,
 };
+use striae_model::{Body, Procedure};
 
 /// A parameter of a model.
 #[derive(Clone, Debug)]

@@ -69,10 +69,8 @@ use std::sync::Arc;
 use striae_contact::initial::Fit;
 use striae_mesh::{ElementId, NodeId, Vec3};
 
-use crate::{
-    node::GlobalNode,
-    team::{Alone, Team},
-};
+use crate::team::{Alone, Team};
+use striae_model::node::GlobalNode;
 
 pub(crate) use contact::shared_out;
 pub use division::Division;

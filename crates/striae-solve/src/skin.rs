@@ -14,10 +14,10 @@ use striae_contact::{
 use striae_mesh::{FacetId, NodeId, Vec3};
 use striae_surface::topology::Surface;
 
-use crate::{
-    model::{ContactSurface, Model, Pair},
+use crate::share::Share;
+use striae_model::{
+    ContactSurface, Model, Pair,
     node::GlobalNode,
-    share::Share,
     tie::{Ties, first_nodes},
 };
 

@@ -23,10 +23,7 @@
 use nalgebra::Matrix3;
 use striae_mesh::Vec3;
 
-use crate::{
-    model::{Model, Spring, SpringEnd, SpringLine, SpringRest},
-    node::GlobalNode,
-};
+use striae_model::{Model, Spring, SpringEnd, SpringLine, SpringRest, node::GlobalNode};
 
 /// A single spring with a dashpot beside it.
 #[derive(Clone, Copy, Debug, PartialEq)]

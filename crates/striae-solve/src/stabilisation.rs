@@ -24,11 +24,8 @@ use striae_contact::{
 use striae_mesh::Vec3;
 use striae_surface::node::SurfaceNode;
 
-use crate::{
-    model::{Model, Procedure},
-    problem::Problem,
-    rigid::Pose,
-};
+use crate::{problem::Problem, rigid::Pose};
+use striae_model::{Model, Procedure};
 
 /// First increment of a step with a stabilised pair, unless a smaller one is requested, and the
 /// largest one if all increments are to be larger. Loads are small at its end, and so is what they

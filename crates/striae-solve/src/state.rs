@@ -5,11 +5,12 @@ use striae_contact::pair_state::PairState;
 use striae_mesh::Vec3;
 
 use crate::{
-    actuation::Actuations,
-    composition::Composition,
     problem::Problem,
     rigid::{Pose, Wrench},
 };
+use striae_model::actuation::Actuations;
+
+use crate::composition::Composition;
 
 /// A converged state. It is never changed: an increment makes a new one.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -55,7 +56,7 @@ pub struct NodalForces {
     pub applied: Vec<Vec3>,
     /// Contact forces.
     pub contact: Vec<Vec3>,
-    /// Forces of ties between bodies, see [`crate::tie`].
+    /// Forces of ties between bodies, see [`striae_model::tie`](mod@striae_model::tie).
     pub ties: Vec<Vec3>,
     /// Forces of stabilisation, see [`crate::stabilisation`].
     pub stabilisation: Vec<Vec3>,

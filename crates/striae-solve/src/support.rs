@@ -27,10 +27,10 @@ use striae_mesh::{FacetId, Vec3};
 use crate::{
     assembly::StepContext,
     interference::{Positions, configuration},
-    model::{BodyId, Mover},
     problem::Problem,
     state::State,
 };
+use striae_model::{BodyId, Mover};
 
 /// Coefficient of friction that is as good as any, and edges of its cone.
 const ROUGH: f64 = 100.0;

@@ -46,11 +46,8 @@ use striae_surface::node::SurfaceNode;
 
 use crate::{
     audit::{Doubt, LEAST_SHARE, coarse, doubts},
-    initial::{fits, may_meet, other_name},
     interference::{Positions, between, beyond, within},
-    model::{Initial, Model, PairId, Procedure},
     newton::{Acceptance, InStep, Increment, Reach},
-    node::GlobalNode,
     offsets::meant_depth,
     outcome::Ending,
     problem::Problem,
@@ -58,6 +55,11 @@ use crate::{
     share::Whole,
     skin::{BodyOverlap, overlaps},
     state::{Energies, State},
+};
+use striae_model::{
+    Initial, Model, PairId, Procedure,
+    initial::{fits, may_meet, other_name},
+    node::GlobalNode,
 };
 
 /// Depth over the facet size from which nodes that nothing presses on are unfelt.

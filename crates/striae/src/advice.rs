@@ -32,8 +32,7 @@ mod units;
 pub use cost::Cost;
 
 use striae_contact::initial::Fit;
-use striae_model::Model;
-use striae_solve::initial::fits;
+use striae_model::{Model, initial::fits};
 
 /// Advice about a model.
 #[derive(Clone, Debug, Default, PartialEq)]

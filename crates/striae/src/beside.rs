@@ -11,7 +11,7 @@ use std::path::Path;
 
 use striae_files::{read_text, write_atomically};
 use striae_law::friction::{Analysis, Friction, Law};
-use striae_solve::model::Model;
+use striae_model::Model;
 
 use crate::{
     error::Error,

@@ -2,7 +2,8 @@
 
 use std::{fmt::Debug, sync::Arc};
 
-use striae_solve::{model::Backend, newton::SharedSolver, team::Team};
+use striae_model::Backend;
+use striae_solve::{newton::SharedSolver, team::Team};
 
 use crate::error::Error;
 

@@ -24,7 +24,7 @@ use std::{
 };
 
 use striae_deck::{Deck, Faults, Setting};
-use striae_model::{Model, StepBuilder, Validate, extended};
+use striae_model::{Backend, Model, StepBuilder, Validate, extended};
 use striae_output::{
     Existing, FieldOutput, Output, available_bytes,
     checkpoint::{
@@ -36,7 +36,6 @@ use striae_output::{
 };
 use striae_solve::{
     drive::{self, Point},
-    model::Backend,
     newton::{Memory, Workspace},
     outcome::Ending,
     problem::Problem,

@@ -9,12 +9,10 @@ use striae::advice::{Advice, Remark, Topic};
 use striae_deck::{Deck, Location, Part};
 use striae_law::bulk::{LameConstants, Material};
 use striae_mesh::{NodeId, significant};
-use striae_solve::{
-    model::{
-        Body, BodySection, ContactSurface, Formulation, Model, Pair, RigidShape, RigidSurface,
-    },
-    stabilisation::first_increment,
+use striae_model::{
+    Body, BodySection, ContactSurface, Formulation, Model, Pair, RigidShape, RigidSurface,
 };
+use striae_solve::stabilisation::first_increment;
 
 /// Check a deck: its faults, or what it describes, with warnings and notes.
 #[derive(clap::Args)]

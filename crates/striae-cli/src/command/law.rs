@@ -24,7 +24,7 @@ use striae::{
 };
 use striae_deck as deck;
 use striae_law::friction::{Analysis, Friction, Law, RequiredTextures, SlipSurface};
-use striae_solve::model::Model;
+use striae_model::Model;
 
 use crate::{failure::Failure, source::Settings};
 use coefficient::coefficient;

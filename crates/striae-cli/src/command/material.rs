@@ -12,7 +12,7 @@ use striae::{
 };
 use striae_files::Stems;
 use striae_law::bulk::{LameConstants, Material};
-use striae_solve::model::Body;
+use striae_model::Body;
 
 use super::law::make_folder;
 use crate::{failure::Failure, source::Source};

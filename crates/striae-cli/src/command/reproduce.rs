@@ -16,7 +16,7 @@ use striae_cases::{
     CASES, Case, Failure as CaseFailure,
     study::{Extent, Runner, Study},
 };
-use striae_solve::{model, warning::Kind};
+use striae_solve::warning::Kind;
 
 use super::run::{Common, Strictness};
 use crate::{
@@ -143,8 +143,8 @@ fn reproduced(
     };
     let mut study = Study::new(case.name, extent, folder.clone(), &runner);
     study.enforcement = arguments.enforcement.map(|enforcement| match enforcement {
-        Enforcement::Weighted => model::Enforcement::Weighted,
-        Enforcement::Collocated => model::Enforcement::Collocated,
+        Enforcement::Weighted => striae_model::Enforcement::Weighted,
+        Enforcement::Collocated => striae_model::Enforcement::Collocated,
     });
     let ran = (case.run)(&mut study);
     if let Err(failure) = &ran

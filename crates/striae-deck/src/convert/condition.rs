@@ -6,7 +6,7 @@ use super::{Model, has, numbers};
 use crate::write::value::{list, vector};
 use striae_mesh::{NodeId, Vec3};
 use striae_meshfile::{Keyword, Row};
-use striae_solve::model::Axes;
+use striae_model::Axes;
 
 /// Components that a word such as `PINNED` holds.
 fn named(word: &str) -> Option<Vec<usize>> {

@@ -2,10 +2,12 @@
 
 use super::Model;
 use super::bodies::Body;
-use crate::lower::cards;
-use crate::write::{
-    law,
-    value::{list, number, text},
+use crate::{
+    lower::cards,
+    write::{
+        law,
+        value::{list, number, text},
+    },
 };
 use std::collections::BTreeMap;
 use striae_mesh::ElementId;

@@ -6,8 +6,7 @@
 //! analysis guide, "Conventions" and "Orientations".
 
 use super::{Model, has, numbers};
-use crate::write::value::list;
-use crate::write::value::{number, vector};
+use crate::write::value::{list, number, vector};
 use striae_mesh::Vec3;
 use striae_meshfile::{Keyword, Row};
 

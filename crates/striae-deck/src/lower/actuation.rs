@@ -8,10 +8,8 @@ use crate::{
     value::{Number, vector},
 };
 use striae_mesh::Vec3;
-use striae_model::{FaultKind as ModelFault, nearest};
-use striae_solve::{
-    actuation::strain_in_axes,
-    model::{Actuation, ActuationKind, BodyId},
+use striae_model::{
+    Actuation, ActuationKind, BodyId, FaultKind as ModelFault, actuation::strain_in_axes, nearest,
 };
 
 /// The actuations of a step.

@@ -6,8 +6,7 @@ use std::path::Path;
 use striae_law::bulk::Material;
 use striae_mesh::{Face, Mesh, NodeId};
 use striae_meshfile::{Asked, Reading, unused_note};
-use striae_model::DraftBody;
-use striae_solve::model::{Body, BodyId, BodySection, ContactMass, Formulation};
+use striae_model::{Body, BodyId, BodySection, ContactMass, DraftBody, Formulation};
 
 /// All bodies of the deck, of which some may be faulty.
 pub(super) struct Bodies {

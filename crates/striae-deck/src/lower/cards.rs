@@ -23,7 +23,7 @@ use striae_law::bulk::{
 };
 use striae_mesh::Mesh;
 use striae_meshfile::{Card, Elasticity, MaterialCard, Moduli, SectionCard};
-use striae_solve::model::{BodySection, Formulation};
+use striae_model::{BodySection, Formulation};
 
 /// Materials stated by a mesh file.
 pub(super) struct Cards {

@@ -2,7 +2,7 @@
 
 use super::{Listed, Scope, body::Bodies, list};
 use crate::{faults::FaultList, names::Names, raw, read::At};
-use striae_solve::model::{Cavity, CavityContent, CavityFilling, CavityId};
+use striae_model::{Cavity, CavityContent, CavityFilling, CavityId};
 
 /// The cavities with their names; `None` for the faulty ones.
 pub(super) fn cavities(

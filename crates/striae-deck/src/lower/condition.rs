@@ -9,9 +9,9 @@ use crate::{
 };
 use std::collections::BTreeSet;
 use striae_mesh::NodeId;
-use striae_model::{shared_force, usual_curve};
-use striae_solve::model::{
+use striae_model::{
     Axes, BodyId, Curve, Displacement, Load, LoadExtent, LoadKind, NodalForce, Release, Value,
+    shared_force, usual_curve,
 };
 
 /// One component of one node of a body.

@@ -3,9 +3,9 @@
 use super::{curve::Curves, friction::friction, surfaces::Surfaces, texture};
 use crate::{faults::FaultList, raw, read::At};
 use striae_law::friction::Friction;
-use striae_model::Known;
-use striae_solve::model::{
-    ClosedGaps, ContactSurface, Curve, Enforcement, Initial, InterferenceFit, Pair, RigidId, Tie,
+use striae_model::{
+    ClosedGaps, ContactSurface, Curve, Enforcement, Initial, InterferenceFit, Known, Pair, RigidId,
+    Tie,
 };
 use striae_surface::texture::Paint;
 

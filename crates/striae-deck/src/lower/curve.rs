@@ -12,8 +12,7 @@ use crate::{
     value::{Number, Positive, Text},
 };
 use std::path::Path;
-use striae_model::{FaultKind as ModelFault, misshapen, nearest};
-use striae_solve::model::{Clock, Course, Curve, History};
+use striae_model::{Clock, Course, Curve, FaultKind as ModelFault, History, misshapen, nearest};
 
 const BUILT_IN: [(&str, Curve); 3] = [
     ("ramp", Curve::Ramp),

@@ -1,7 +1,7 @@
 //! Formulations of elements.
 
 use crate::{raw, read::At};
-use striae_solve::model::Formulation;
+use striae_model::Formulation;
 
 /// Formulation of elements, if it is stated.
 pub(super) fn formulation(stated: &Option<At<raw::Formulation>>) -> Option<Formulation> {

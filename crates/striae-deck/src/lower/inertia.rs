@@ -3,8 +3,7 @@
 use super::{Listed, Scope, list};
 use crate::{faults::FaultList, raw, read::At, value::vector};
 use striae_mesh::Vec3;
-use striae_model::FaultKind as ModelFault;
-use striae_solve::model::{Gravity, Mover, Procedure, RigidId, Velocity};
+use striae_model::{FaultKind as ModelFault, Gravity, Mover, Procedure, RigidId, Velocity};
 
 const SPECTRAL_RADIUS: f64 = 0.8;
 

@@ -50,10 +50,9 @@ use std::path::Path;
 use step::LoweredStep;
 use striae_declared::shown;
 use striae_model::{
-    Draft, DraftPair, DraftStep, Fault, FaultKind as ModelFault, Known, Lowered, Named, fitted,
-    whole_faults,
+    Backend, Cavity, Draft, DraftPair, DraftStep, Fault, FaultKind as ModelFault, Known, Lowered,
+    Model, Named, RigidSurface, Solver, Spring, Strategy, Tie, fitted, whole_faults,
 };
-use striae_solve::model::{Backend, Cavity, Model, RigidSurface, Solver, Spring, Strategy, Tie};
 
 /// Parts that the rest of a deck refers to by name.
 struct Scope<'r> {

@@ -9,7 +9,7 @@ use crate::{fault::FaultKind, faults::FaultList, raw};
 use std::path::PathBuf;
 use striae_mesh::NodeId;
 use striae_meshfile::{self as mesh_file, MeshFileError};
-use striae_solve::model::{ContactSurface, RigidShape};
+use striae_model::{ContactSurface, RigidShape};
 use striae_surface::{texture::Paint, topology::Surface};
 
 /// The paint of a side that has nodes; `None` for a plane, or after faults have

@@ -4,8 +4,9 @@ use super::{Listed, Scope, body::Bodies, list, mesh, nonzero::nonzero};
 use crate::{fault::FaultKind, faults::FaultList, raw, read::At, value::Positive, value::vector};
 use std::path::Path;
 use striae_mesh::Vec3;
-use striae_model::FaultKind as ModelFault;
-use striae_solve::model::{Freedom, RigidId, RigidInertia, RigidMotion, RigidShape, RigidSurface};
+use striae_model::{
+    FaultKind as ModelFault, Freedom, RigidId, RigidInertia, RigidMotion, RigidShape, RigidSurface,
+};
 
 /// The rigid bodies; `None` for the faulty ones.
 pub(super) fn bodies(
@@ -81,7 +82,7 @@ fn solid(
     }
     let found = match shape {
         RigidShape::Facets { positions, facets } => {
-            striae_solve::solid::inertia(positions, facets, density.value.0)
+            striae_model::solid::inertia(positions, facets, density.value.0)
                 .map_err(|error| error.to_string())
         }
         RigidShape::Plane { .. } | RigidShape::Bare => {

@@ -3,8 +3,7 @@
 use super::{cards::Cards, formulation::formulation, list, materials::Materials, sets};
 use crate::{fault::FaultKind, faults::FaultList, raw};
 use striae_mesh::Mesh;
-use striae_model::FaultKind as ModelFault;
-use striae_solve::model::{BodySection, Formulation};
+use striae_model::{BodySection, FaultKind as ModelFault, Formulation};
 
 /// Parts that the sections of a body refer to.
 pub(super) struct Sections<'a> {

@@ -2,8 +2,7 @@
 
 use super::{nonzero::nonzero, surfaces::Surfaces};
 use crate::{faults::FaultList, names::Names, raw, read::At, value::vector};
-use striae_model::FaultKind as ModelFault;
-use striae_solve::model::{RigidId, Spring, SpringEnd, SpringLine, SpringRest};
+use striae_model::{FaultKind as ModelFault, RigidId, Spring, SpringEnd, SpringLine, SpringRest};
 
 /// The springs; `None` for the faulty ones.
 pub(super) fn springs(

@@ -7,8 +7,7 @@ use super::{
 };
 use crate::{fault::FaultKind, faults::FaultList, names::Names, raw, read::At};
 use striae_law::friction::Friction;
-use striae_model::{Known, equal_increments};
-use striae_solve::model::{Increments, PairId, Step};
+use striae_model::{Increments, Known, PairId, Step, equal_increments};
 
 const INITIAL: f64 = 0.1;
 const SMALLEST_OVER_INITIAL: f64 = 1e-3;

@@ -3,7 +3,7 @@
 use super::body::Bodies;
 use crate::{names::Names, raw};
 use std::path::Path;
-use striae_solve::model::RigidSurface;
+use striae_model::RigidSurface;
 
 /// Parts that a side of a pair may refer to.
 pub(super) struct Surfaces<'r> {

@@ -2,8 +2,7 @@
 
 use super::{nodal, surfaces::Surfaces};
 use crate::{fault::FaultKind, faults::FaultList, raw::Texture, read::At};
-use striae_model::FaultKind as ModelFault;
-use striae_solve::model::{ContactSurface, RigidShape, RigidSurface};
+use striae_model::{ContactSurface, FaultKind as ModelFault, RigidShape, RigidSurface};
 use striae_surface::texture::Paint;
 
 /// The paint of a side, `None` after its faults or those of the side have been noted.

@@ -1,6 +1,6 @@
 //! Strain and tension that steps give to bodies.
 
-use striae_solve::model::{Actuation, ActuationKind};
+use striae_model::{Actuation, ActuationKind};
 
 use super::Writer;
 use super::value::{list, number, text, vector};

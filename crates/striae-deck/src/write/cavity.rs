@@ -1,6 +1,6 @@
 //! Cavities and their contents.
 
-use striae_solve::model::{CavityContent, CavityFilling};
+use striae_model::{CavityContent, CavityFilling};
 
 use super::Writer;
 use super::value::{list, number, text};

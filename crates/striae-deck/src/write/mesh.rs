@@ -2,7 +2,7 @@
 
 use striae_law::bulk::Material;
 use striae_mesh::{ElementId, Face, Mesh, NodeId, Sets};
-use striae_solve::model::{BodyId, ContactMass, Formulation, Model};
+use striae_model::{BodyId, ContactMass, Formulation, Model};
 
 use super::value::{lines, list, number, text, vector};
 use super::{Writer, law};

@@ -23,8 +23,8 @@ pub(crate) mod value;
 use std::fmt;
 
 use mesh::Meshes;
+use striae_model::{Backend, Clock, Course, Curve, Model, Solver, Strategy};
 use striae_output::Output;
-use striae_solve::model::{Backend, Clock, Course, Curve, Model, Solver, Strategy};
 use value::{number, text};
 
 /// Parts of a model that a deck cannot state.

@@ -1,6 +1,6 @@
 //! Pairs: sides, textures, friction; ties.
 
-use striae_solve::model::{ContactSurface, Enforcement, Initial, Pair};
+use striae_model::{ContactSurface, Enforcement, Initial, Pair};
 use striae_surface::texture::Paint;
 
 use super::value::{number, text};

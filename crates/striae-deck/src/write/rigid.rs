@@ -1,10 +1,7 @@
 //! Rigid bodies.
 
 use striae_declared::read_as;
-use striae_solve::{
-    model::{RigidInertia, RigidShape, RigidSurface},
-    solid,
-};
+use striae_model::{RigidInertia, RigidShape, RigidSurface, solid};
 
 use super::Writer;
 use super::mesh::corners;

@@ -1,6 +1,6 @@
 //! Springs and dashpots.
 
-use striae_solve::model::{SpringEnd, SpringLine, SpringRest};
+use striae_model::{SpringEnd, SpringLine, SpringRest};
 
 use super::Writer;
 use super::value::{direction, number, text, vector};

@@ -1,7 +1,7 @@
 //! Steps and what they state.
 
 use striae_declared::degrees;
-use striae_solve::model::{
+use striae_model::{
     Axes, Displacement, Freedom, Load, LoadExtent, LoadKind, Mover, NodalForce, Procedure, Release,
     RigidMotion, Step, Velocity,
 };

@@ -1,7 +1,7 @@
 //! Values as TOML, so that the same bits are read again.
 
 use striae_mesh::Vec3;
-use striae_solve::model::Value;
+use striae_model::Value;
 
 /// A number.
 pub(crate) fn number(value: f64) -> String {

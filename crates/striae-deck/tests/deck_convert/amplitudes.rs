@@ -1,7 +1,7 @@
 //! Kinds of amplitudes, against their formulas.
 
 use super::{STEP, assert_listed, converted, made, model, with};
-use striae_solve::model::{Displacement, Moment};
+use striae_model::{Displacement, Moment};
 
 /// Displacement of the pad's top along z over the first step of a duration of 2.
 fn course(amplitude: &str, parameters: &str) -> (Vec<String>, Vec<[f64; 2]>) {

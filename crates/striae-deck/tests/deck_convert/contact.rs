@@ -3,7 +3,7 @@
 use super::{CUBE, FOAM, STEP, assert_listed, converted, made, model, with};
 use striae_law::friction::Law;
 use striae_mesh::Vec3;
-use striae_solve::model::Model;
+use striae_model::Model;
 
 /// Friction with these keywords below the interaction, and a row of the pair.
 fn interaction(keywords: &str, row: &str) -> (String, Vec<String>, Model) {

@@ -2,7 +2,7 @@
 
 use super::{assert_listed, converted, model, with};
 use striae_mesh::Vec3;
-use striae_solve::model::{Curve, LoadKind, NodalForce};
+use striae_model::{Curve, LoadKind, NodalForce};
 
 fn each(force: &NodalForce) -> Vec3 {
     force.force.map(|value| value.number().expect("a number"))
@@ -101,7 +101,7 @@ fn forces_with_an_amplitude_follow_it_over_the_run() {
         + "*STEP\n*STATIC\n0.1, 2.\n*CLOAD, AMPLITUDE=Saw\nPad-1.High, 3, 4.\n*END STEP\n";
     let (_, listed, deck) = converted(&model("", &step));
     assert_listed(&listed, &[]);
-    let moments = striae_solve::model::Moment::start(2.0);
+    let moments = striae_model::Moment::start(2.0);
     for (step, start, value) in [(0, 0.0, -2.0), (1, 2.0, 4.0)] {
         let force = &deck.model.steps[step].forces[0];
         assert_eq!(each(force).z, value);

@@ -20,7 +20,7 @@ use striae_deck::{Deck, convert, parse};
 use striae_declared::Kind;
 use striae_law::friction::Law;
 use striae_mesh::Vec3;
-use striae_solve::model::{Axes, Curve, Displacement, LoadKind, Procedure, RigidShape};
+use striae_model::{Axes, Curve, Displacement, LoadKind, Procedure, RigidShape};
 
 /// A part of one cube with its sides as sets and surfaces.
 const CUBE: &str = "*PART, NAME=Cube

@@ -3,7 +3,7 @@
 use super::{STEP, assert_listed, converted, model};
 use std::f64::consts::{PI, TAU};
 use striae_mesh::Vec3;
-use striae_solve::model::{Freedom, Model, RigidShape};
+use striae_model::{Freedom, Model, RigidShape};
 
 /// A rigid body by an analytical surface of the part `Wall`, moved by `place`.
 fn analytical(surface: &str, place: &str) -> (Vec<String>, Model) {

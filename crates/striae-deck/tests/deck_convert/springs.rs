@@ -2,7 +2,7 @@
 
 use super::{STEP, assert_listed, converted, model};
 use striae_mesh::Vec3;
-use striae_solve::model::{Spring, SpringEnd, SpringLine};
+use striae_model::{Spring, SpringEnd, SpringLine};
 
 /// Springs by these keywords of the assembly.
 fn springs(keywords: &str) -> (Vec<String>, Vec<Spring>) {

@@ -2,7 +2,7 @@
 
 use super::{STEP, assert_listed, converted, made, model, with};
 use striae_mesh::Vec3;
-use striae_solve::model::{Curve, Mover, Procedure};
+use striae_model::{Curve, Mover, Procedure};
 
 #[test]
 fn the_four_numbers_of_a_step() {

@@ -22,8 +22,7 @@ use super::division::{CELLS, Division, cells, nodes, parts};
 use super::generator::{Generate, Generator, product};
 use super::grading::{EQUAL, GRADING};
 use super::grid::{Closure, Grid, Side, named_mesh};
-use crate::random::Random;
-use crate::{CellKind, Mesh, MeshError, Vec3};
+use crate::{CellKind, Mesh, MeshError, Vec3, random::Random};
 use nalgebra::{Rotation3, Unit};
 use striae_declared::{
     ANY, Absent, Bound, Declared, LENGTH, NO_UNIT, POSITIVE, Parameter, Set, Values,

@@ -1,8 +1,11 @@
 //! Gmsh files, whole and broken.
 
 use super::{assert_explained, block, divided, written};
-use crate::gmsh::{self, rigid_surface};
-use crate::{MeshFileFault, read_rigid_surface};
+use crate::{
+    MeshFileFault,
+    gmsh::{self, rigid_surface},
+    read_rigid_surface,
+};
 use striae_mesh::{CellKind, Mesh, NodeId, Vec3};
 
 fn body(text: &str) -> Result<Mesh, MeshFileFault> {

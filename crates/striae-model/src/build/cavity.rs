@@ -1,9 +1,8 @@
 //! Cavities.
 
-use striae_solve::model::Cavity;
+use crate::{fault::Fault, model::Cavity, path::Path};
 
 use super::lookup::Names;
-use crate::{fault::Fault, path::Path};
 
 /// A cavity; see [`cavity`].
 #[derive(Clone, Debug)]

@@ -1,16 +1,16 @@
 //! Steps after those that a model has.
 
-use striae_solve::model::{Model, Step};
+use crate::{
+    check::{Draft, DraftStep, Validate},
+    fault::{Fault, Faults},
+    model::{Model, Step},
+};
 
 use super::{
     StepBuilder,
     lookup::Names,
     placed,
     step::{Prescribed, Resolved},
-};
-use crate::{
-    check::{Draft, DraftStep, Validate},
-    fault::{Fault, Faults},
 };
 
 /// The model with more steps at its end; names are those of its parts. What the meshes

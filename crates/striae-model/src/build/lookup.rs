@@ -1,14 +1,13 @@
 //! Names that stand for ids and members; unknown ones are faults.
 
-use striae_mesh::{Face, NodeId, Sets};
-use striae_solve::model::{Body, BodyId, CavityId, PairId, RigidId};
-
 use crate::{
     check::Known,
     fault::{Fault, FaultKind},
+    model::{Body, BodyId, CavityId, PairId, RigidId},
     names::nearest,
     path::Path,
 };
+use striae_mesh::{Face, NodeId, Sets};
 
 /// Parts that names may refer to.
 pub(super) struct Names<'a> {

@@ -30,17 +30,15 @@ pub use step::{
 };
 pub use tie::{TieBuilder, tie};
 
-use striae_solve::model::{
-    Backend, Body, Cavity, Model, Pair, RigidSurface, Solver, Spring, Strategy, Tie,
-};
-
 use crate::{
     check::{Draft, DraftPair, DraftStep, Known, Named, Validate},
     fault::{Fault, Faults},
     fit::fitted,
     general::{Everything, Lowered},
+    model::{Backend, Body, Cavity, Model, Pair, RigidSurface, Solver, Spring, Strategy, Tie},
     path::{Path, Segment},
 };
+
 use lookup::Names;
 use step::{Prescribed, Resolved};
 

@@ -1,11 +1,14 @@
 //! Contact pairs.
 
+use crate::{
+    fault::Fault,
+    model::{ContactSurface, Curve, Enforcement, Initial, InterferenceFit, Pair},
+    path::Path,
+};
 use striae_law::friction::Friction;
-use striae_solve::model::{ContactSurface, Curve, Enforcement, Initial, InterferenceFit, Pair};
 use striae_surface::texture::Paint;
 
 use super::lookup::Names;
-use crate::{fault::Fault, path::Path};
 
 /// A side of a pair; see [`surface`], [`rigid`] and [`itself`].
 #[derive(Clone, Debug)]

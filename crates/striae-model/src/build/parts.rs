@@ -1,17 +1,15 @@
 //! Deformable and rigid bodies.
 
-use striae_law::bulk::Material;
-use striae_mesh::{ElementId, Mesh, NodeId, Region, Vec3};
-use striae_solve::{
-    model::{Body, BodySection, ContactMass, Formulation, RigidInertia, RigidShape, RigidSurface},
-    solid::{self, SolidError},
-};
-
-use super::lookup::Names;
 use crate::{
     fault::{Fault, FaultKind},
+    model::{Body, BodySection, ContactMass, Formulation, RigidInertia, RigidShape, RigidSurface},
     path::Path,
+    solid::{self, SolidError},
 };
+use striae_law::bulk::Material;
+use striae_mesh::{ElementId, Mesh, NodeId, Region, Vec3};
+
+use super::lookup::Names;
 
 /// A deformable body; see [`body`].
 #[derive(Clone, Debug)]

@@ -1,10 +1,13 @@
 //! Springs and dashpots.
 
+use crate::{
+    fault::Fault,
+    model::{RigidSurface, Spring, SpringEnd, SpringLine, SpringRest},
+    path::Path,
+};
 use striae_mesh::Vec3;
-use striae_solve::model::{RigidSurface, Spring, SpringEnd, SpringLine, SpringRest};
 
 use super::lookup::Names;
-use crate::{fault::Fault, path::Path};
 
 /// Springs; see [`spring`], [`spring_to_point`] and [`spring_along`].
 #[derive(Clone, Debug)]

@@ -4,17 +4,21 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::{
+    check::Known,
+    fault::Fault,
+    model::{
+        Actuation, ActuationKind, Axes, BodyId, CavityContent, CavityFilling, Curve, Displacement,
+        Freedom, Gravity, Increments, Load, LoadExtent, LoadKind, Mover, NodalForce, Procedure,
+        Release, RigidMotion, Step, Value, Velocity,
+    },
+    path::Path,
+};
 use nalgebra::Vector3;
 use striae_law::friction::Friction;
 use striae_mesh::{NodeId, Vec3};
-use striae_solve::model::{
-    Actuation, ActuationKind, Axes, BodyId, CavityContent, CavityFilling, Curve, Displacement,
-    Freedom, Gravity, Increments, Load, LoadExtent, LoadKind, Mover, NodalForce, Procedure,
-    Release, RigidMotion, Step, Value, Velocity,
-};
 
 use super::lookup::Names;
-use crate::{check::Known, fault::Fault, path::Path};
 
 /// Smallest increment over the first one, where nothing else is said.
 const SMALLEST_OVER_INITIAL: f64 = 1e-3;
@@ -376,7 +380,7 @@ impl StepBuilder {
         torque: Option<Vec3>,
     ) -> Self {
         let motion = RigidMotion {
-            surface: striae_solve::model::RigidId(0),
+            surface: crate::model::RigidId(0),
             coordinates,
             force,
             torque,

@@ -1,9 +1,8 @@
 //! Ties.
 
-use striae_solve::model::Tie;
+use crate::{fault::Fault, model::Tie, path::Path};
 
 use super::{SideBuilder, lookup::Names, pair::sides};
-use crate::{fault::Fault, path::Path};
 
 /// A tie; see [`tie`].
 #[derive(Clone, Debug)]

@@ -2,11 +2,14 @@
 
 use std::mem::discriminant;
 
+use crate::{
+    fault::FaultKind,
+    model::{Actuation, ActuationKind, Moment, Step},
+    path::Path,
+};
 use striae_mesh::Vec3;
-use striae_solve::model::{Actuation, ActuationKind, Moment, Step};
 
 use super::{Draft, List};
-use crate::{fault::FaultKind, path::Path};
 
 /// Largest component of a strain, beyond all measure.
 const LARGEST: f64 = 1e6;

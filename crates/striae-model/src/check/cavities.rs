@@ -1,17 +1,15 @@
 //! Cavities that enclose no volume, and contents that they cannot have.
 
-use striae_mesh::{Vec3, place, significant};
-use striae_solve::{
+use crate::{
     cavity::{RimFault, enclosed},
+    fault::{Fault, FaultKind},
     model::{CavityContent, CavityFilling, Curve, Model, Procedure},
+    path::Path,
     plan::plans,
 };
+use striae_mesh::{Vec3, place, significant};
 
 use super::{List, distinct};
-use crate::{
-    fault::{Fault, FaultKind},
-    path::Path,
-};
 
 /// Every fault of the cavities of a model and of their contents. Only whole models have any.
 pub fn faults(model: &Model) -> Vec<Fault> {

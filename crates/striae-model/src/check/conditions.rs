@@ -4,11 +4,14 @@ mod directions;
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::{
+    fault::FaultKind,
+    model::{BodyId, Curve, Displacement, Release, Step, Value},
+    path::Path,
+};
 use striae_mesh::NodeId;
-use striae_solve::model::{BodyId, Curve, Displacement, Release, Step, Value};
 
 use super::{Draft, DraftStep, Known, List};
-use crate::{fault::FaultKind, path::Path};
 use directions::{Directions, no_direction};
 
 /// Names of the components.

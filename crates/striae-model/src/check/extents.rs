@@ -1,10 +1,9 @@
 //! Lengths that can be computed with: their sixth powers are numbers.
 
+use crate::{fault::FaultKind, model::RigidShape, path::Path};
 use striae_mesh::Vec3;
-use striae_solve::model::RigidShape;
 
 use super::{Draft, List};
-use crate::{fault::FaultKind, path::Path};
 
 /// Smallest and largest extent.
 const EXTENTS: [f64; 2] = [1e-50, 1e50];

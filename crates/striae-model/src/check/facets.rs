@@ -5,11 +5,10 @@
 
 use std::collections::BTreeMap;
 
+use crate::{fault::FaultKind, model::RigidShape, path::Path};
 use striae_mesh::{NodeId, Vec3};
-use striae_solve::model::RigidShape;
 
 use super::{Draft, List};
-use crate::{fault::FaultKind, path::Path};
 
 /// Ratio of the area to the square of the longest diagonal below which it counts as zero.
 const FLAT: f64 = 1e-12;

@@ -1,10 +1,13 @@
 //! Targets that are no finite numbers somewhere.
 
+use crate::{
+    fault::FaultKind,
+    model::{BodyId, Course, Curve, History, LoadKind, Moment, Step, Value},
+    path::Path,
+};
 use striae_mesh::{NodeId, Vec3};
-use striae_solve::model::{BodyId, Course, Curve, History, LoadKind, Moment, Step, Value};
 
 use super::{Draft, List};
-use crate::{fault::FaultKind, path::Path};
 
 /// Moments of a step at which functions are looked at, but for its start.
 const MOMENTS: usize = 40;

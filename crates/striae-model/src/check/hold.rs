@@ -3,14 +3,16 @@
 
 use std::collections::BTreeMap;
 
-use striae_mesh::{Mesh, NodeId, Vec3};
-use striae_solve::{
+use crate::{
     axes::{NodeFrame, are_parallel},
+    fault::FaultKind,
     model::{BodyId, ContactSurface, Mover, Procedure, SpringEnd, SpringLine, Step},
+    motions::RigidMotions,
+    path::Path,
 };
+use striae_mesh::{Mesh, NodeId, Vec3};
 
 use super::{Draft, List};
-use crate::{fault::FaultKind, motions::RigidMotions, path::Path};
 
 /// Notes every body that can move freely, in the first step in which it can. All pairs
 /// and steps must be known, as each might be what holds the body.

@@ -1,9 +1,12 @@
 //! Densities where there is inertia or gravity.
 
-use striae_solve::model::{Procedure, Step};
+use crate::{
+    fault::FaultKind,
+    model::{Procedure, Step},
+    path::Path,
+};
 
 use super::{Draft, List, Positions};
-use crate::{fault::FaultKind, path::Path};
 
 /// Notes every material without density in the first step that needs it.
 pub(super) fn check(draft: &Draft<'_>, partial: &Positions, faults: &mut List) {

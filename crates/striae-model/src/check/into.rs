@@ -3,17 +3,14 @@
 
 use std::collections::BTreeSet;
 
-use striae_mesh::{Face, Mesh, NodeId, Vec3};
-use striae_solve::{
-    initial::opposed,
-    model::{ContactSurface, Model, Pair, RigidId, RigidShape},
-    plan::{Prescription, StepPlan, plans},
-};
-
 use crate::{
     fault::{Fault, FaultKind},
+    initial::opposed,
+    model::{ContactSurface, Model, Pair, RigidId, RigidShape},
     path::Path,
+    plan::{Prescription, StepPlan, plans},
 };
+use striae_mesh::{Face, Mesh, NodeId, Vec3};
 
 /// Depth over the size of elements that counts as none.
 const NONE: f64 = 1e-6;

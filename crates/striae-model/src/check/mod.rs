@@ -31,14 +31,13 @@ pub(crate) use numbers::of_everything;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use striae_law::bulk::Material;
-use striae_mesh::Mesh;
-use striae_solve::model::{Body, BodySection, Model, Pair, RigidSurface, Spring, Step, Tie};
-
 use crate::{
     fault::{Fault, FaultKind, Faults},
+    model::{Body, BodySection, Model, Pair, RigidSurface, Spring, Step, Tie},
     path::Path,
 };
+use striae_law::bulk::Material;
+use striae_mesh::Mesh;
 
 /// Completeness of a part of a draft.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

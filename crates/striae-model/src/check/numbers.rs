@@ -1,18 +1,18 @@
 //! Numbers in their ranges, directions of some length, curves that rise.
 
+use crate::{
+    fault::{Fault, FaultKind},
+    model::{
+        Clock, ClosedGaps, Course, Curve, History, Initial, Model, Pair, Procedure, RigidInertia,
+        RigidShape, Spring, SpringEnd, SpringLine, SpringRest, Step,
+    },
+    path::Path,
+};
 use striae_law::bulk::{LameConstants, Material};
 use striae_mesh::Vec3;
-use striae_solve::model::{
-    Clock, ClosedGaps, Course, Curve, History, Initial, Model, Pair, Procedure, RigidInertia,
-    RigidShape, Spring, SpringEnd, SpringLine, SpringRest, Step,
-};
 use striae_surface::texture::{Lines, Paint};
 
 use super::List;
-use crate::{
-    fault::{Fault, FaultKind},
-    path::Path,
-};
 
 const POSITIVE: &str = "a positive number";
 const FINITE: &str = "a finite number";

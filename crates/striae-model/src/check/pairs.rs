@@ -2,13 +2,16 @@
 
 use std::collections::BTreeSet;
 
+use crate::{
+    fault::FaultKind,
+    model::{ContactSurface, Enforcement, Initial, Pair, Procedure, RigidShape},
+    path::Path,
+};
 use striae_law::friction::Friction;
 use striae_mesh::Face;
-use striae_solve::model::{ContactSurface, Enforcement, Initial, Pair, Procedure, RigidShape};
 use striae_surface::texture::Paint;
 
 use super::{Draft, DraftPair, Known, List, Positions};
-use crate::{fault::FaultKind, path::Path};
 
 /// Notes faults of all pairs; returns those that are no pairs or not wholly known.
 pub(super) fn check(draft: &Draft<'_>, faults: &mut List) -> Positions {

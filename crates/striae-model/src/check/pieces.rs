@@ -3,11 +3,15 @@
 
 use std::collections::BTreeSet;
 
+use crate::{
+    fault::FaultKind,
+    model::{BodyId, ContactSurface, Procedure, SpringEnd, SpringLine},
+    motions::RigidMotions,
+    path::Path,
+};
 use striae_mesh::{Face, Mesh, NodeId};
-use striae_solve::model::{BodyId, ContactSurface, Procedure, SpringEnd, SpringLine};
 
 use super::{Draft, List, hold};
-use crate::{fault::FaultKind, motions::RigidMotions, path::Path};
 
 /// Notes every piece that can move freely, in the first step in which it can.
 pub(super) fn check(draft: &Draft<'_>, faults: &mut List) {

@@ -1,14 +1,17 @@
 //! Pairs both of whose surfaces are prescribed along their normals: nothing is left for
 //! contact to decide.
 
+use crate::{
+    fault::FaultKind,
+    model::{BodyId, ContactSurface, Pair},
+    path::Path,
+};
 use striae_mesh::{Face, Mesh, NodeId};
-use striae_solve::model::{BodyId, ContactSurface, Pair};
 
 use super::{
     Draft, List, Positions,
     hold::{self, Held},
 };
-use crate::{fault::FaultKind, path::Path};
 
 /// Component of a normal that counts as zero.
 const ACROSS: f64 = 0.1;

@@ -14,21 +14,18 @@
 //! stabilised carries a body that nothing loads, but none that is pulled: what it resists with is
 //! gone at the end of the step. Inertia holds what has mass.
 
-use striae_law::friction::Friction;
-use striae_mesh::{Face, Mesh, NodeId, Vec3};
-use striae_solve::{
+use crate::{
+    fault::{Fault, FaultKind},
     initial::opposed,
     model::{
         Body, BodyId, CavityContent, ContactSurface, LoadExtent, LoadKind, Model, Moment, Mover,
         Procedure, RigidId, Step,
     },
+    path::Path,
     plan::{Prescription, StepPlan, plans},
 };
-
-use crate::{
-    fault::{Fault, FaultKind},
-    path::Path,
-};
+use striae_law::friction::Friction;
+use striae_mesh::{Face, Mesh, NodeId, Vec3};
 
 /// Component of a push that counts as zero.
 const ACROSS: f64 = 0.17;

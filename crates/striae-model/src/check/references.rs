@@ -1,13 +1,13 @@
 //! Ids, nodes and faces that are there.
 
-use striae_mesh::{Face, Mesh, NodeId};
-use striae_solve::model::{BodyId, ContactSurface, Model, Mover, RigidId, RigidShape, SpringEnd};
-
-use super::List;
 use crate::{
     fault::{Fault, FaultKind},
+    model::{BodyId, ContactSurface, Model, Mover, RigidId, RigidShape, SpringEnd},
     path::Path,
 };
+use striae_mesh::{Face, Mesh, NodeId};
+
+use super::List;
 
 /// Every id of a model that nothing has.
 pub(super) fn faults(model: &Model) -> Vec<Fault> {

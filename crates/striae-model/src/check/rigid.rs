@@ -3,11 +3,14 @@
 
 use std::collections::BTreeMap;
 
+use crate::{
+    fault::FaultKind,
+    model::{BodyId, ContactSurface, Freedom, Mover, RigidId, Step},
+    path::Path,
+};
 use striae_mesh::NodeId;
-use striae_solve::model::{BodyId, ContactSurface, Freedom, Mover, RigidId, Step};
 
 use super::{Draft, List, Positions, hold::is_sprung};
-use crate::{fault::FaultKind, path::Path};
 
 /// Notes nodes that are tied twice, and the others in every whole step.
 pub(super) fn check(

@@ -2,11 +2,10 @@
 
 use std::collections::HashMap;
 
+use crate::{fault::FaultKind, model::BodySection, path::Path};
 use striae_mesh::ElementId;
-use striae_solve::model::BodySection;
 
 use super::{Draft, List};
-use crate::{fault::FaultKind, path::Path};
 
 impl FaultKind {
     /// The fault that a body without a material of its own has elements, of so many, in

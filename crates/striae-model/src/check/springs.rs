@@ -1,10 +1,13 @@
 //! Springs that have no force, no direction or too many ends.
 
+use crate::{
+    fault::FaultKind,
+    model::{Spring, SpringEnd, SpringLine, SpringRest},
+    path::Path,
+};
 use striae_mesh::{Vec3, place};
-use striae_solve::model::{Spring, SpringEnd, SpringLine, SpringRest};
 
 use super::{Draft, List, numbers};
-use crate::{fault::FaultKind, path::Path};
 
 /// Notes faults of all springs whose ends are known.
 pub(super) fn check(draft: &Draft<'_>, faults: &mut List) {

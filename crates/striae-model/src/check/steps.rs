@@ -1,9 +1,12 @@
 //! Checks of what each step states: increments, loads, velocities, motions and friction.
 
-use striae_solve::model::{Load, LoadKind, Moment, Mover, Procedure, Step};
+use crate::{
+    fault::FaultKind,
+    model::{Load, LoadKind, Moment, Mover, Procedure, Step},
+    path::Path,
+};
 
 use super::{Draft, Known, List, Positions, actuations, conditions, functions, pairs};
-use crate::{fault::FaultKind, path::Path};
 
 /// Notes faults within steps; returns those that are not whole.
 pub(super) fn check(draft: &Draft<'_>, impossible: &Positions, faults: &mut List) -> Positions {

@@ -2,14 +2,15 @@
 
 use std::collections::BTreeSet;
 
-use striae_mesh::Face;
-use striae_solve::{
+use crate::{
+    fault::FaultKind,
     model::{BodyId, ContactSurface, Tie},
+    path::Path,
     tie::{TieFault, covered},
 };
+use striae_mesh::Face;
 
 use super::{Draft, List};
-use crate::{fault::FaultKind, path::Path};
 
 /// Notes faults of all ties that do not need their place.
 pub(super) fn check(draft: &Draft<'_>, faults: &mut List) {

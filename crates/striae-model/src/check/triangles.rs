@@ -2,11 +2,14 @@
 //!
 //! Collocated contact is integrated over parts of quadrilaterals only.
 
+use crate::{
+    fault::FaultKind,
+    model::{BodyId, ContactSurface, Enforcement, Pair},
+    path::Path,
+};
 use striae_mesh::{Face, Mesh};
-use striae_solve::model::{BodyId, ContactSurface, Enforcement, Pair};
 
 use super::{Draft, List};
-use crate::{fault::FaultKind, path::Path};
 
 /// Notes pairs that need facets with four corners and have others.
 pub(super) fn check(draft: &Draft<'_>, faults: &mut List) {

@@ -1,14 +1,13 @@
 //! Labels of surfaces: `tread`, `road`, `tread.zmin`.
 
-use striae_mesh::Face;
-use striae_solve::model::{BodyId, ContactSurface, RigidId};
-
 use crate::{
     check::Draft,
     fault::{Fault, FaultKind},
+    model::{BodyId, ContactSurface, RigidId},
     names::nearest,
     path::Path,
 };
+use striae_mesh::Face;
 
 /// Owner of a surface, by position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

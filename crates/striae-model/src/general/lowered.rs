@@ -2,8 +2,13 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::{
+    check::{Draft, of_everything},
+    fault::Fault,
+    model::{ContactSurface, Enforcement, Initial, Pair},
+    path::Path,
+};
 use striae_law::friction::{Friction, RequiredTextures};
-use striae_solve::model::{ContactSurface, Enforcement, Initial, Pair};
 use striae_surface::texture::Paint;
 
 use super::{
@@ -13,11 +18,6 @@ use super::{
     product::{Product, products},
     rule::{Couple, Rule, Rules, Stated},
     scene::{Scene, named, names_nothing},
-};
-use crate::{
-    check::{Draft, of_everything},
-    fault::Fault,
-    path::Path,
 };
 
 /// Pairs that contact of everything comes down to.

@@ -25,8 +25,8 @@ mod taken;
 
 pub use lowered::{Lowered, Origin};
 
+use crate::model::Initial;
 use striae_law::friction::Friction;
-use striae_solve::model::Initial;
 use striae_surface::texture::Paint;
 
 /// Dihedral angle in degrees from which on an edge separates faces, where nothing else is said.

@@ -2,8 +2,13 @@
 
 use std::collections::BTreeSet;
 
+use crate::{
+    check::Draft,
+    fault::{Fault, FaultKind},
+    model::{BodyId, ContactSurface, RigidId, RigidShape},
+    path::Path,
+};
 use striae_mesh::Face;
-use striae_solve::model::{BodyId, ContactSurface, RigidId, RigidShape};
 use striae_surface::texture::Paint;
 
 use super::{
@@ -12,11 +17,6 @@ use super::{
     paint::restricted,
     rule::{Couple, Rule, Stated, Undecided},
     taken::Taken,
-};
-use crate::{
-    check::Draft,
-    fault::{Fault, FaultKind},
-    path::Path,
 };
 
 /// Surfaces and the statements about them.

@@ -2,17 +2,17 @@
 
 use std::collections::BTreeSet;
 
-use striae_mesh::{Face, NodeId};
-use striae_solve::{
+use crate::{
+    check::Draft,
     model::{BodyId, ContactSurface, Pair, Tie},
     tie::covered,
 };
+use striae_mesh::{Face, NodeId};
 
 use super::{
     atom::Atom,
     label::{Owner, Part},
 };
-use crate::check::Draft;
 
 /// Part of a facet from which on it is glued as a whole.
 const GLUED: f64 = 0.5;

@@ -26,12 +26,8 @@ use postcard::ser_flavors::Flavor;
 use serde::{Deserialize, Serialize, Serializer};
 use std::path::{Path, PathBuf};
 
-use striae_solve::{
-    drive::Point,
-    model::{Model, Step},
-    problem::Problem,
-    share::Share,
-};
+use striae_model::{Model, Step};
+use striae_solve::{drive::Point, problem::Problem, share::Share};
 
 use crate::{
     Checksums, FieldOutput, Output, OutputError, ranks::on_first, vtk::Snapshot, worn::Worn,

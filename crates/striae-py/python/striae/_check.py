@@ -276,7 +276,7 @@ def mapping(value: Any, path: str) -> None:
 
 
 def named(value: Optional[Mapping[str, T]], path: str) -> list[tuple[str, T]]:
-    """What a mapping has by its names, nothing if there is none."""
+    """Returns the items of a mapping by their names, none for `None`."""
     if value is None:
         return []
     mapping(value, path)

@@ -5,7 +5,7 @@ use pyo3::prelude::*;
 use striae::{
     contact::component::{Opponent, Pair, Surface},
     law::friction,
-    solve::model::RigidShape,
+    model::RigidShape,
 };
 
 use crate::{array::corners, fault::refused, friction::Friction, rigid::Rigid, texture::Texture};

@@ -7,7 +7,8 @@
 use striae_element::{ElementError, ElementFault};
 use striae_mesh::{ElementId, NodeId, Vec3};
 
-use crate::{load::LoadError, outcome::CutBack, problem::Problem};
+use crate::{outcome::CutBack, problem::Problem};
+use striae_model::load::LoadError;
 
 /// Result of a phase, or the first reason for which it failed on any rank; collective.
 pub(super) fn agreed<T>(problem: &Problem, found: Result<T, CutBack>) -> Result<T, CutBack> {

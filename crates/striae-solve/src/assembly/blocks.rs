@@ -11,7 +11,8 @@ use striae_sparse::{CompressedRows, PlacedBlock};
 use striae_surface::node::SurfaceNode;
 
 use super::{Setting, System, terms::Answer};
-use crate::{layout::united, node::GlobalNode, share::shared_out};
+use crate::{layout::united, share::shared_out};
+use striae_model::node::GlobalNode;
 
 /// Terms for one thread at a time.
 const TERMS: usize = 16;

@@ -1,4 +1,4 @@
-//! Pressures in cavities and their volumes in the system, see [`crate::cavity`].
+//! Pressures in cavities and their volumes in the system, see [`striae_model::cavity`].
 
 use striae_contact::segment::Derivatives;
 use striae_mesh::Vec3;
@@ -7,11 +7,11 @@ use super::{
     Imposed, System, Trial,
     scatter::{Part, Slot},
 };
-use crate::{
+use crate::outcome::CutBack;
+use striae_model::{
     cavity::{Content, pressed},
     load::FaceLoad,
     node::GlobalNode,
-    outcome::CutBack,
 };
 
 impl System<'_> {

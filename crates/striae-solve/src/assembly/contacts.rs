@@ -11,7 +11,8 @@ use striae_contact::{
 use striae_mesh::{FacetId, Vec3};
 
 use super::{Contact, Setting, System, Trial};
-use crate::{node::GlobalNode, outcome::CutBack, problem::Problem};
+use crate::{outcome::CutBack, problem::Problem};
+use striae_model::node::GlobalNode;
 
 impl Contact {
     /// Contact of every pair.

@@ -11,20 +11,22 @@ use striae_mesh::{NodeId, Vec3};
 use striae_surface::node::SurfaceNode;
 
 use crate::{
-    actuation::Actuations,
-    cavity::Content,
     dynamics::{ImposedRate, Motion},
     interference::{Positions, placed},
-    model::{LoadKind, Moment, Value},
-    node::GlobalNode,
     offsets::Offsets,
-    plan::{PlannedCavity, PlannedForce, StepPlan},
     problem::Problem,
     rigid::{Pose, Wrench},
     stabilisation::Dashpot,
     state::State,
 };
 use dashpots::{coefficient, dashpots};
+use striae_model::{
+    LoadKind, Moment, Value,
+    actuation::Actuations,
+    cavity::Content,
+    node::GlobalNode,
+    plan::{PlannedCavity, PlannedForce, StepPlan},
+};
 use turned::Turned;
 
 /// Data that stay constant within a step.

@@ -16,12 +16,10 @@ use super::{
     inertia::{Inertia, Share},
     scatter::{Part, Slot},
 };
-use crate::{
+use crate::{outcome::CutBack, problem::Problem, state::State};
+use striae_model::{
     actuation::{Actuations, SectionActuation},
     node::GlobalNode,
-    outcome::CutBack,
-    problem::Problem,
-    state::State,
 };
 
 /// Sums of the contributions of elements at a supervariable.

@@ -1,8 +1,8 @@
-//! Residuals of nodes that follow others in ties, see [`crate::tie`]; how their rows and
+//! Residuals of nodes that follow others in ties, see [`striae_model::tie`]; how their rows and
 //! columns are eliminated, see [`super::ties`].
 
 use super::System;
-use crate::tie::Ties;
+use striae_model::tie::Ties;
 
 impl System<'_> {
     /// Turns the residuals of nodes that follow into those of the nodes that they follow, and

@@ -14,7 +14,7 @@ use striae_element::ElementResponse;
 use striae_mesh::{MAX_CORNERS, Vec3};
 
 use super::{Imposed, StepContext, System, Trial};
-use crate::{node::GlobalNode, tie::Ties};
+use striae_model::{node::GlobalNode, tie::Ties};
 
 /// Data of the increment that elements need.
 pub(super) struct Inertia {

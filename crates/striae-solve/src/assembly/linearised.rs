@@ -19,7 +19,8 @@ use striae_mesh::Vec3;
 use striae_sparse::PlacedBlock;
 
 use super::{Setting, System, Trial, configurations, contacts::contacts};
-use crate::{layout::Layout, node::GlobalNode, norms::Norms, outcome::CutBack};
+use crate::{layout::Layout, norms::Norms, outcome::CutBack};
+use striae_model::node::GlobalNode;
 
 /// All but contact at a trial state.
 #[derive(Clone, Debug, Default)]

@@ -12,12 +12,8 @@ use striae_surface::{
 };
 
 use super::{Imposed, System, Trial, terms::Answer};
-use crate::{
-    load,
-    model::{LoadExtent, LoadKind, Value},
-    outcome::CutBack,
-    problem::ContactFacet,
-};
+use crate::{outcome::CutBack, problem::ContactFacet};
+use striae_model::{LoadExtent, LoadKind, Value, load};
 
 impl System<'_> {
     pub(super) fn loads(

@@ -2,7 +2,8 @@
 
 use striae_sparse::{CliquePlaces, Structure};
 
-use crate::{layout::Layout, model::Body, problem::Problem};
+use crate::{layout::Layout, problem::Problem};
+use striae_model::Body;
 
 /// Elements that are evaluated and added at a time: few enough for the cache.
 const BATCH: usize = 128;

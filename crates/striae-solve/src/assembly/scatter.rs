@@ -1,5 +1,5 @@
 //! Blocks in the two parts of the tangent, with ties eliminated, see [`super::ties`], and along the
-//! axes of nodes that have their own, see [`crate::axes`].
+//! axes of nodes that have their own, see [`striae_model::axes`].
 
 use std::{borrow::Cow, ops::Range};
 use striae_contact::segment::Derivatives;
@@ -7,7 +7,7 @@ use striae_mesh::Vec3;
 use striae_sparse::PlacedBlock;
 
 use super::{System, ties::Tie};
-use crate::node::GlobalNode;
+use striae_model::node::GlobalNode;
 
 /// An unknown or an equation before ties are eliminated.
 #[derive(Clone, Copy, Debug)]

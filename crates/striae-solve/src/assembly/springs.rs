@@ -5,11 +5,11 @@ use striae_mesh::Vec3;
 
 use super::{Imposed, OfBodies, System, Trial};
 use crate::{
-    node::GlobalNode,
     outcome::CutBack,
     spring::{Length, Link},
     state::State,
 };
+use striae_model::node::GlobalNode;
 
 /// Origin of the rates of elongation in an increment.
 enum Rates<'a> {

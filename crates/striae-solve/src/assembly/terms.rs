@@ -29,7 +29,7 @@ use super::{
     scatter::{Part, Slot},
     ties::Tie,
 };
-use crate::node::GlobalNode;
+use striae_model::node::GlobalNode;
 
 /// Reaction to the forces of a term.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

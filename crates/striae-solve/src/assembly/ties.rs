@@ -1,7 +1,7 @@
 //! Nodes that follow others in ties and nodes tied to rigid bodies, eliminated.
 //!
 //! Rows of a node that follows become rows of the nodes that it follows, and columns alike,
-//! by its constant weights, see [`crate::tie`]. These may be tied to a rigid body in turn.
+//! by its constant weights, see [`striae_model::tie`]. These may be tied to a rigid body in turn.
 //!
 //! Position unknowns of a tied node are no unknowns of the system: rows that
 //! belong to them become rows of the body, `sum f` and `sum r x f`, and columns
@@ -23,11 +23,12 @@ use striae_mesh::Vec3;
 
 use super::{Imposed, System, Trial};
 use crate::{
-    composition::Composition,
-    node::GlobalNode,
     problem::Problem,
     rigid::{Wrench, turn_tangent},
 };
+use striae_model::node::GlobalNode;
+
+use crate::composition::Composition;
 
 /// Dependence of a tied node on its body.
 #[derive(Clone, Copy, Debug)]

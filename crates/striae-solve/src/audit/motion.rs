@@ -9,7 +9,8 @@
 use striae_mesh::Vec3;
 
 use super::Jump;
-use crate::{assembly::StepContext, model::Procedure, state::State};
+use crate::{assembly::StepContext, state::State};
+use striae_model::Procedure;
 
 /// Way over the facet size, and part of the work of the loads that contact pays, from which on a
 /// motion is a jump.

@@ -6,7 +6,8 @@ use striae_condensed::Growth;
 use striae_sparse::Supervariable;
 
 use super::Layout;
-use crate::{node::GlobalNode, problem::Problem};
+use crate::problem::Problem;
+use striae_model::node::GlobalNode;
 
 /// By what the patterns of all ranks have grown together, in this rank's numbers; collective.
 ///

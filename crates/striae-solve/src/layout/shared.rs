@@ -8,7 +8,8 @@
 use striae_condensed::Numbering;
 
 use super::Layout;
-use crate::{node::GlobalNode, problem::Problem, share::Holding};
+use crate::{problem::Problem, share::Holding};
+use striae_model::node::GlobalNode;
 
 /// Positions of a node.
 const POSITIONS: usize = 3;

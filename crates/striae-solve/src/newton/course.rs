@@ -23,10 +23,10 @@ use striae_mesh::Vec3;
 
 use crate::{
     assembly::{StepContext, Trial},
-    model::Strategy,
     rigid::Pose,
     state::State,
 };
+use striae_model::Strategy;
 
 /// Start of an increment: a continued step extrapolates from it to start the next one.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

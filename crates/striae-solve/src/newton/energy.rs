@@ -41,7 +41,7 @@
 //! prescribed components, the left ones; what follows in ties has its own from these. The last
 //! lines are how far the chords `dr` of the arms `r` are from arcs. Neither looks at the
 //! assembled inertia forces or at the residual. `G` stands for stress-free strains and tensions, see
-//! [`crate::actuation`]. So external work and that of actuation equal all other energy up to
+//! [`striae_model::actuation`]. So external work and that of actuation equal all other energy up to
 //! the residual that Newton's method leaves only if mass, inertia, contact and tie forces are
 //! those of the equations that were solved. No node can dissipate less than nothing, as the law
 //! of friction holds there at the end.
@@ -60,12 +60,12 @@ use crate::{
     assembly::{Assembled, Imposed, StepContext, Trial},
     dynamics::{Scheme, wrenches},
     mass::{kinetic_energy, mass_times, product},
-    node::GlobalNode,
     problem::Problem,
     rigid::Pose,
     stabilisation::Dashpot,
     state::{Energies, State},
 };
+use striae_model::node::GlobalNode;
 
 /// The ends of a converged increment.
 pub(super) struct Ends<'a> {

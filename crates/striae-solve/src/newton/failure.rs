@@ -7,10 +7,10 @@ use striae_sparse::SolveError;
 use crate::{
     assembly::{Setting, Trial},
     layout::Layout,
-    node::GlobalNode,
     outcome::CutBack,
     problem::Problem,
 };
+use striae_model::node::GlobalNode;
 
 /// Nodes without a share in the traction field that have met the other surface.
 pub(super) fn missed(setting: &Setting, trial: &Trial) -> Option<CutBack> {

@@ -11,11 +11,10 @@ use striae_mesh::{NodeId, Vec3};
 
 use crate::{
     assembly::{Setting, Trial},
-    model::Procedure,
-    node::GlobalNode,
     outcome::CutBack,
     problem::Problem,
 };
+use striae_model::{Procedure, node::GlobalNode};
 
 /// Way in one increment, over the size of the undeformed bodies, beyond what is prescribed.
 const FARTHEST: f64 = 100.0;

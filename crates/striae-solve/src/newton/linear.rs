@@ -6,7 +6,7 @@ use striae_condensed::{
 };
 use striae_sparse::{SolveError, SolveReport};
 
-use crate::model::Backend;
+use striae_model::Backend;
 
 /// The solver that a backend is, which chooses among others.
 pub(super) fn automatic(backend: Backend) -> Automatic {

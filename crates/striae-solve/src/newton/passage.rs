@@ -24,14 +24,12 @@ use striae_surface::{node::SurfaceNode, topology::distinct_corners};
 
 use crate::{
     assembly::{Setting, Trial},
-    initial::other_name,
     interference::{Positions, between, beyond},
-    model::PairId,
-    node::GlobalNode,
     offsets::meant_depth,
     outcome::{CutBack, Start},
     skin::{BodyOverlap, crossing, overlaps},
 };
+use striae_model::{PairId, initial::other_name, node::GlobalNode};
 
 /// Depth over the facet size from which on points inside are missed where nothing acts.
 const UNSEEN: f64 = 0.5;

@@ -13,10 +13,10 @@ use striae_contact::{
 use crate::{
     assembly::StepContext,
     freedom::{Friction, free_motion},
-    model::Procedure,
     outcome::CutBack,
     state::State,
 };
+use striae_model::Procedure;
 
 /// Pairs that are closed somewhere.
 pub(super) fn closed(contacts: &[Evaluation]) -> Vec<bool> {

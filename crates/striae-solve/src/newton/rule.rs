@@ -6,7 +6,7 @@ use striae_contact::{
     table_1::{Corrector, Inflation},
 };
 
-use crate::model::Strategy;
+use striae_model::Strategy;
 
 /// Iterations of the present problem: the rows of contact that are solved for are others once nodes
 /// are chosen again, and earlier failures to converge do not concern them.

@@ -18,9 +18,9 @@ use striae_surface::node::SurfaceNode;
 
 use crate::{
     assembly::{Imposed, Setting, StepContext, Trial},
-    model::Strategy,
     state::State,
 };
+use striae_model::Strategy;
 
 /// Change of the weights of kept nodes, over the largest, below which fields are the same.
 const SAME: f64 = 1e-6;

@@ -22,12 +22,12 @@ use crate::{
         StepContext, Trial, assemble, assemble_contact, initial_accelerations,
     },
     layout::{Extent, Layout},
-    model::Backend,
     outcome::CutBack,
     problem::Problem,
     rigid::Pose,
     state::{NodalForces, State},
 };
+use striae_model::Backend;
 
 /// Part of the residual that is as good as nothing.
 const EXACT: f64 = 1e-12;

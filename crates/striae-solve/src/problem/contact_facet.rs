@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use striae_contact::side::Side;
 use striae_mesh::{Face, FacetId};
 
-use crate::pair_geometry::PairGeometry;
+use striae_model::pair_geometry::PairGeometry;
 
 /// A facet of a side of a pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,13 +1,10 @@
 //! Parts of a problem that follow from its model before there are elements.
 
 use super::{ProblemError, shadow::shadowed};
-use crate::{
-    composition::Materials,
-    contact_mass::massless,
-    model::Model,
+use crate::{composition::Materials, contact_mass::massless, share::Share, skin::Skin};
+use striae_model::{
+    Model,
     pair_geometry::{PairGeometry, add_fibres, pair_geometry},
-    share::Share,
-    skin::Skin,
     tie::{Ties, first_nodes},
 };
 

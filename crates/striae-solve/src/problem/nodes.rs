@@ -5,7 +5,7 @@ use striae_mesh::{NodeId, Vec3};
 use striae_surface::node::SurfaceNode;
 
 use super::Problem;
-use crate::node::GlobalNode;
+use striae_model::node::GlobalNode;
 
 impl Problem {
     /// All nodes.

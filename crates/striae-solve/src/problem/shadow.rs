@@ -10,7 +10,7 @@
 
 use striae_contact::side::Side;
 
-use crate::{node::GlobalNode, pair_geometry::PairGeometry, tie::Ties};
+use striae_model::{node::GlobalNode, pair_geometry::PairGeometry, tie::Ties};
 
 /// Weight over the largest one of a node that is not asked.
 const SMALL: f64 = 0.05;

@@ -11,7 +11,7 @@ use striae_mesh::{NodeId, Vec3};
 use striae_surface::{node::SurfaceNode, normal::nodal_normals, topology::Surface};
 
 use super::ProblemError;
-use crate::{model::Model, node::GlobalNode, pair_geometry::PairGeometry};
+use striae_model::{Model, node::GlobalNode, pair_geometry::PairGeometry};
 
 /// Cosine of the angle between normals at rest beyond which nodes belong to two faces, 45 degrees
 /// as between faces that touch without being named.

@@ -2,7 +2,8 @@
 
 use striae_mesh::Vec3;
 
-use crate::{model::Spring, problem::Problem, state::State};
+use crate::{problem::Problem, state::State};
+use striae_model::Spring;
 
 /// Result of springs.
 #[derive(Clone, Debug, PartialEq)]

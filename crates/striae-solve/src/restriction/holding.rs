@@ -4,12 +4,14 @@ use striae_mesh::{ElementId, NodeId, Vec3};
 
 use super::numbers::Numbers;
 use crate::{
-    initial::{fits, may_meet},
-    model::{Model, PairId},
-    node::GlobalNode,
     problem::{Frame, extent},
     rigid::mass_points,
     share::{Division, Holding, Whole},
+};
+use striae_model::{
+    Model, PairId,
+    initial::{fits, may_meet},
+    node::GlobalNode,
 };
 
 /// Description of what a rank holds.

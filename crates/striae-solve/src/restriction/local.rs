@@ -3,7 +3,7 @@
 use striae_mesh::{CellBlock, ElementId, Mesh, NodeId, Sets};
 
 use super::numbers::Numbers;
-use crate::model::{
+use striae_model::{
     Body, BodyId, BodySection, ContactSurface, Displacement, Load, Model, NodalForce, Pair,
     Release, RigidSurface, Step, Tie,
 };

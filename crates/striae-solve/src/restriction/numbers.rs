@@ -3,7 +3,8 @@
 use striae_contact::side::Side;
 use striae_mesh::{ElementId, Face, NodeId};
 
-use crate::{model::Model, node::GlobalNode, problem::Frame, share::Division, tie::first_nodes};
+use crate::{problem::Frame, share::Division};
+use striae_model::{Model, node::GlobalNode, tie::first_nodes};
 
 /// Marker of nodes and elements that are not held.
 const NOWHERE: u32 = u32::MAX;

@@ -11,7 +11,8 @@
 use striae_mesh::{CellBlock, NodeId};
 use striae_sparse::{Neighbourhood, SolveError, divided};
 
-use crate::{model::Model, node::GlobalNode, team::Team};
+use crate::team::Team;
+use striae_model::{Model, node::GlobalNode};
 
 /// Nodes in common from which on elements are neighbours.
 const LEAST_COMMON: u8 = 3;

@@ -7,7 +7,8 @@
 use striae_mesh::Vec3;
 
 use super::Holding;
-use crate::{node::GlobalNode, team::Team};
+use crate::team::Team;
+use striae_model::node::GlobalNode;
 
 /// Sums fields over the ranks that hold each node; collective.
 pub(super) fn sum(team: &dyn Team, holding: &Holding, fields: &mut [&mut [Vec3]]) {

@@ -3,7 +3,7 @@
 use nalgebra::Matrix3;
 use striae_law::bulk::{Direction, FibreStiffness, Fibres, Fibrous, Material};
 use striae_mesh::Vec3;
-use striae_solve::model::{
+use striae_model::{
     ActuationKind, BodySection, ContactSurface, Formulation, LoadExtent, LoadKind, Pair, RigidId,
     RigidSurface,
 };

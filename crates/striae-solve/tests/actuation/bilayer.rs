@@ -1,7 +1,7 @@
 //! A strip of two layers, of which one grows: Timoshenko's curvature.
 
 use striae_mesh::Vec3;
-use striae_solve::model::{ActuationKind, BodySection, Formulation};
+use striae_model::{ActuationKind, BodySection, Formulation};
 
 use crate::{
     Actuation, actuation,

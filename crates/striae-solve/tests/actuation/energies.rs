@@ -6,7 +6,7 @@ use striae_law::bulk::{
     Volumetric,
 };
 use striae_mesh::Vec3;
-use striae_solve::model::{ActuationKind, Curve, Formulation, LoadExtent, LoadKind, Model};
+use striae_model::{ActuationKind, Curve, Formulation, LoadExtent, LoadKind, Model};
 use striae_verify::fitted_rate;
 
 use crate::{

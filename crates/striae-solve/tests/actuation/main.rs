@@ -11,9 +11,7 @@ mod energies;
 use nalgebra::Matrix3;
 use scene::{Places, block, body, increments, model, step};
 use striae_law::bulk::Material;
-use striae_solve::model::{
-    Actuation, ActuationKind, BodyId, Curve, Formulation, Model, Procedure, Step,
-};
+use striae_model::{Actuation, ActuationKind, BodyId, Curve, Formulation, Model, Procedure, Step};
 
 const FORMULATIONS: [Formulation; 3] = [
     Formulation::Standard,

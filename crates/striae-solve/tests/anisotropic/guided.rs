@@ -15,10 +15,8 @@
 use nalgebra::{Matrix3, Vector2};
 use striae_contact::unknowns::Status;
 use striae_mesh::{NodeId, Vec3};
-use striae_solve::{
-    model::{Axes, BodyId, Curve, Displacement, Model},
-    report,
-};
+use striae_model::{Axes, BodyId, Curve, Displacement, Model};
+use striae_solve::report;
 
 use crate::{
     oblique::{Formula, Oblique, Sliding},

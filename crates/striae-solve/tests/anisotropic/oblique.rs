@@ -18,13 +18,15 @@ use striae_law::{
     friction::{Friction, SlipRule},
 };
 use striae_mesh::{Vec3, generate::Block};
-use striae_solve::model::{
+use striae_model::{
     Axes, Curve, Displacement, Load, LoadExtent, LoadKind, Model, RigidShape, Step,
 };
 use striae_surface::texture::{Field, Lines, Paint};
 
-use crate::scene::{Places, block, body, increments, model, step};
-use crate::table::{Table, coefficient};
+use crate::{
+    scene::{Places, block, body, increments, model, step},
+    table::{Table, coefficient},
+};
 
 const G: f64 = 1.0;
 const LAMBDA: f64 = 1.5;
@@ -223,7 +225,7 @@ impl Sliding {
             Displacement {
                 axes: Axes::Global,
                 set: "top".to_owned(),
-                body: striae_solve::model::BodyId(0),
+                body: striae_model::BodyId(0),
                 nodes: vec![node],
                 components: [u.x, u.y, u.z].map(|u| Some(u.into())),
                 curve: Curve::Ramp,

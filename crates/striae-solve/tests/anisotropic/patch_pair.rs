@@ -17,7 +17,7 @@ use striae_mesh::{
     Vec3,
     generate::Block,
 };
-use striae_solve::model::{Axes, BodyId, Curve, Displacement, LoadExtent, LoadKind, Model, Step};
+use striae_model::{Axes, BodyId, Curve, Displacement, LoadExtent, LoadKind, Model, Step};
 
 const HEIGHT: f64 = 0.4;
 /// Distance that the upper body slides.

@@ -12,11 +12,8 @@ use striae_mesh::{
     NodeId, Vec3,
     generate::{Block, Pivot, Rotation},
 };
-use striae_solve::{
-    model::{Model, RigidShape},
-    report,
-    state::State,
-};
+use striae_model::{Model, RigidShape};
+use striae_solve::{report, state::State};
 use striae_surface::texture::{Field, Lines, Paint};
 
 const CONSTANTS: Formula = Formula::TwoTextures([0.3, 0.2, 0.15, 0.6]);

@@ -8,7 +8,7 @@ mod ring;
 mod turned;
 
 use striae_mesh::{Mesh, NodeId, Vec3};
-use striae_solve::model::{Axes, BodyId, Curve, Displacement};
+use striae_model::{Axes, BodyId, Curve, Displacement};
 
 /// Prescribes the components that are not `None` at the nodes of the first body with these
 /// reference positions.

@@ -3,7 +3,7 @@
 //! Small displacements of a ring in plane strain are `u = A r + B/r` along the radius (Lamé).
 
 use striae_mesh::{CellBlock, CellKind, ElementId, Face, Mesh, NodeId, Vec3};
-use striae_solve::model::{Axes, BodyId, Curve, Load, LoadExtent, LoadKind, Model};
+use striae_model::{Axes, BodyId, Curve, Load, LoadExtent, LoadKind, Model};
 use striae_verify::fitted_rate;
 
 use super::prescribed;
@@ -173,7 +173,7 @@ fn released_components_are_free_in_their_axes() {
     ];
     let mut free = step();
     "free".clone_into(&mut free.name);
-    free.releases = vec![striae_solve::model::Release {
+    free.releases = vec![striae_model::Release {
         body: BodyId(0),
         nodes: turn.displacements[1].nodes.clone(),
         components: [false, true, false],

@@ -3,10 +3,8 @@
 use nalgebra::{Matrix3, Rotation3};
 use striae_law::friction::Friction;
 use striae_mesh::Vec3;
-use striae_solve::{
-    model::{Axes, Curve, Gravity, LoadExtent, LoadKind, Model, Procedure},
-    report::reactions,
-};
+use striae_model::{Axes, Curve, Gravity, LoadExtent, LoadKind, Model, Procedure};
+use striae_solve::report::reactions;
 
 use crate::scene::{Places, Run, block, body, coulomb, increments, model, rubber, step};
 

@@ -5,12 +5,8 @@ use striae_law::friction::{
     Decay, Friction, Logarithm, PressureDependence, RateDependence, SlipDependence, SlipRule,
 };
 use striae_mesh::NodeId;
-use striae_solve::{
-    model::{Axes, BodyId, Curve, Displacement, LoadExtent, LoadKind, Model},
-    outcome::Ending,
-    report::pairs,
-    state::State,
-};
+use striae_model::{Axes, BodyId, Curve, Displacement, LoadExtent, LoadKind, Model};
+use striae_solve::{outcome::Ending, report::pairs, state::State};
 use striae_surface::texture::{Field, Lines, Paint};
 
 use crate::scene::{Places, Run, block, body, coulomb, increments, model, plane, rubber, step};

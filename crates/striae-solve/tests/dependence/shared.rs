@@ -6,12 +6,10 @@ use striae_law::friction::{
     Evolution, Friction, Healing, HealingCourse, RateAndState, SlipDependence, StateDependence,
 };
 use striae_mesh::{Face, NodeId};
-use striae_solve::{
-    model::{Axes, BodyId, ContactSurface, Curve, Displacement, LoadExtent, LoadKind, Model, Pair},
-    outcome::Ending,
-    report::pairs,
-    state::State,
+use striae_model::{
+    Axes, BodyId, ContactSurface, Curve, Displacement, LoadExtent, LoadKind, Model, Pair,
 };
+use striae_solve::{outcome::Ending, report::pairs, state::State};
 
 use crate::scene::{Places, Run, block, body, coulomb, increments, model, rubber, step};
 

@@ -7,11 +7,8 @@
 
 use striae_law::friction::{Evolution, Friction, RateAndState, StateDependence};
 use striae_mesh::ElementId;
-use striae_solve::{
-    model::{BodySection, Formulation, Model, Procedure, Step},
-    outcome::Ending,
-    report::pairs,
-};
+use striae_model::{BodySection, Formulation, Model, Procedure, Step};
+use striae_solve::{outcome::Ending, report::pairs};
 
 use crate::scene::{Places, Run, block, body, coulomb, increments, model, plane, rubber, step};
 

@@ -1,12 +1,14 @@
 //! Patch tests: a distorted block takes up a homogeneous state exactly.
 
-use crate::assembly::{Block, Force, kinds, scatter};
-use crate::{linear_elastic, neo_hookean};
+use crate::{
+    assembly::{Block, Force, kinds, scatter},
+    linear_elastic, neo_hookean,
+};
 use nalgebra::Matrix3;
 use striae_element::{Formulation, nodal_cauchy_stress};
 use striae_law::bulk::LameConstants;
 use striae_mesh::{CellKind, Vec3};
-use striae_solve::{load, model::LoadKind};
+use striae_model::{LoadKind, load};
 use striae_verify::Random;
 
 /// A stretch without rotation.

@@ -9,8 +9,10 @@
 //! vanishes on the boundary of the unit cube; the force per reference volume
 //! that keeps it in equilibrium is `b_i = -A_iJkL(F) u_k,JL`, exactly.
 
-use crate::assembly::{Block, Kind, kinds};
-use crate::{linear_elastic, neo_hookean};
+use crate::{
+    assembly::{Block, Kind, kinds},
+    linear_elastic, neo_hookean,
+};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use num_dual::{DualNum, hessian};
 use std::f64::consts::PI;

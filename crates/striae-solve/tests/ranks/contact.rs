@@ -7,7 +7,7 @@ use striae_law::friction::{
     OwnFactor, RateAndState, StateDependence,
 };
 use striae_mesh::{CellKind, Vec3, generate::Block};
-use striae_solve::model::{Axes, Formulation, LoadExtent, LoadKind, Model};
+use striae_model::{Axes, Formulation, LoadExtent, LoadKind, Model};
 use striae_surface::texture::{Field, Lines, Paint};
 
 use crate::{

@@ -1,7 +1,7 @@
 //! Failures on one rank, which end or cut increments on all.
 
 use striae_mesh::Vec3;
-use striae_solve::model::{LoadExtent, LoadKind, Model};
+use striae_model::{LoadExtent, LoadKind, Model};
 
 use crate::{
     scene::{Places, block, body, coulomb, increments, model, plane, rubber, step},

@@ -1,7 +1,7 @@
 //! Inertia and rigid bodies.
 
 use striae_mesh::Vec3;
-use striae_solve::model::{
+use striae_model::{
     BodyId, ContactMass, Curve, Freedom, Gravity, Model, Mover, Procedure, RigidId, RigidInertia,
     RigidMotion, RigidShape, RigidSurface, Step, Velocity,
 };

@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use striae_contact::evaluation::Evaluation;
 use striae_mesh::Vec3;
+use striae_model::{Backend, Model};
 use striae_solve::{
     drive::{Continue, Observer, Progress, run, run_in},
     dynamics::momentum,
-    model::{Backend, Model},
     newton::{InStep, Increment, IterationObserver, Workspace},
     norms::Norms,
     outcome::CutBack,

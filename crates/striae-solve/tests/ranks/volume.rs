@@ -5,7 +5,7 @@ use striae_law::bulk::{
     Volumetric,
 };
 use striae_mesh::{ElementId, Face};
-use striae_solve::model::{BodyId, BodySection, ContactSurface, Formulation, Model, Tie};
+use striae_model::{BodyId, BodySection, ContactSurface, Formulation, Model, Tie};
 
 use crate::{
     scene::{Places, block, body, coulomb, increments, model, plane, rubber, step},

@@ -5,9 +5,8 @@ use std::collections::BTreeMap;
 use striae_contact::side::Side;
 use striae_element::ElementError;
 use striae_mesh::{ElementId, Mesh, NodeId};
+use striae_model::{Model, node::GlobalNode};
 use striae_solve::{
-    model::Model,
-    node::GlobalNode,
     problem::{Problem, ProblemError},
     share::{Division, Holding},
     team::Together,

@@ -14,7 +14,7 @@ pub fn in_whole(problem: &Problem, layout: &Layout, whole: &Layout) -> Vec<usize
             true => {
                 problem
                     .share
-                    .whole_node(striae_solve::node::GlobalNode(at))
+                    .whole_node(striae_model::node::GlobalNode(at))
                     .0
             }
             false => at - nodes + bodies,

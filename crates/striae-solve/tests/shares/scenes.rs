@@ -3,7 +3,7 @@
 use striae_contact::pair::Enforcement;
 use striae_law::{bulk::Material, friction::Friction};
 use striae_mesh::{CellBlock, CellKind, ElementId, Face, Mesh, NodeId, Vec3, generate::Block};
-use striae_solve::model::{
+use striae_model::{
     Body, BodyId, BodySection, ContactMass, ContactSurface, Curve, Formulation, Freedom, Gravity,
     LoadExtent, LoadKind, Model, Procedure, RigidId, RigidInertia, RigidMotion, RigidShape,
     RigidSurface, Tie,

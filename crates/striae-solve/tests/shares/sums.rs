@@ -1,9 +1,9 @@
 //! Sums over shares, compared with the whole.
 
+use striae_model::Model;
 use striae_solve::{
     dynamics::{kinetic_energy, mass_times},
     layout::Layout,
-    model::Model,
     problem::Problem,
     share::Division,
     team::Together,

@@ -6,12 +6,12 @@ use striae_law::{
     friction::Friction,
 };
 use striae_mesh::{Vec3, generate::Block};
+use striae_model::{
+    Axes, Backend, Body, BodyId, ContactMass, ContactSurface, Curve, Displacement, Formulation,
+    Increments, Initial, Model, Pair, Procedure, Solver, Step, Strategy,
+};
 use striae_solve::{
     drive::{Continue, Observer, Progress, run_after},
-    model::{
-        Axes, Backend, Body, BodyId, ContactMass, ContactSurface, Curve, Displacement, Formulation,
-        Increments, Initial, Model, Pair, Procedure, Solver, Step, Strategy,
-    },
     newton::{Increment, IterationObserver},
     norms::Norms,
     outcome::{CutBack, Ending},

@@ -1,10 +1,10 @@
 //! Tangents of cavities with all contents.
 
 use striae_mesh::{CellBlock, CellKind, Mesh};
-use striae_solve::{
-    assembly::StepContext,
-    model::{BodyId, Cavity, CavityContent, CavityFilling, CavityId, Curve, Model, Procedure},
+use striae_model::{
+    BodyId, Cavity, CavityContent, CavityFilling, CavityId, Curve, Model, Procedure,
 };
+use striae_solve::assembly::StepContext;
 
 use crate::{
     scene::{Places, Run, block, body, increments, model, rubber, step},

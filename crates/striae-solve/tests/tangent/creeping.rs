@@ -4,7 +4,8 @@ use striae_contact::pair::Enforcement;
 use striae_law::friction::{
     Evolution, Friction, PressureDependence, RateAndState, SlipDependence, StateDependence,
 };
-use striae_solve::{assembly::StepContext, model::Model, problem::Problem, state::State};
+use striae_model::Model;
+use striae_solve::{assembly::StepContext, problem::Problem, state::State};
 
 use crate::{
     oblique::{Formula, uniform},

@@ -5,7 +5,8 @@ use striae_law::friction::{
     DualNum, FactorLane, FactorLaw, FactorPoint, FactorRange, Friction, Healing, HealingCourse,
     OwnFactor, PressureDependence, RequiredTextures, SlipDependence, StateDependence,
 };
-use striae_solve::{assembly::StepContext, model::Model, problem::Problem, state::State};
+use striae_model::Model;
+use striae_solve::{assembly::StepContext, problem::Problem, state::State};
 
 use crate::{
     oblique::{Formula, uniform},

@@ -3,7 +3,8 @@
 use striae_contact::{complementarity::Prescribed, pair::Enforcement, unknowns::Status};
 use striae_law::friction::{Friction, SlipRule};
 use striae_mesh::Vec3;
-use striae_solve::{assembly::StepContext, model::Model, problem::Problem, state::State};
+use striae_model::Model;
+use striae_solve::{assembly::StepContext, problem::Problem, state::State};
 use striae_surface::texture::{Field, Lines, Paint};
 
 use crate::{

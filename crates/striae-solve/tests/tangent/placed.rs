@@ -4,11 +4,8 @@ use nalgebra::Rotation3;
 use striae_contact::placement::Placement;
 use striae_law::friction::{Decay, Friction, PressureDependence, RateDependence, SlipDependence};
 use striae_mesh::{CellKind, NodeId, Vec3};
-use striae_solve::{
-    model::{Model, RigidShape},
-    problem::Problem,
-    rigid::Pose,
-};
+use striae_model::{Model, RigidShape};
+use striae_solve::{problem::Problem, rigid::Pose};
 use striae_verify::Random;
 
 use crate::{

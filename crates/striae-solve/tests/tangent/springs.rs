@@ -2,13 +2,11 @@
 
 use nalgebra::DVector;
 use striae_mesh::Vec3;
-use striae_solve::{
-    assembly::StepContext,
-    model::{
-        BodyId, Curve, Freedom, Model, Procedure, RigidId, RigidInertia, RigidMotion, RigidShape,
-        RigidSurface, Spring, SpringEnd, SpringLine, SpringRest,
-    },
+use striae_model::{
+    BodyId, Curve, Freedom, Model, Procedure, RigidId, RigidInertia, RigidMotion, RigidShape,
+    RigidSurface, Spring, SpringEnd, SpringLine, SpringRest,
 };
+use striae_solve::assembly::StepContext;
 use striae_verify::{Difference, Random, derivative::directional};
 
 use crate::{

@@ -6,12 +6,12 @@ use striae_contact::slip_freedom::SlipFreedom;
 use striae_contact::unknowns::Status;
 use striae_law::friction::Friction;
 use striae_mesh::{CellKind, Vec3};
+use striae_model::{
+    Actuation, ActuationKind, Axes, BodyId, Curve, Formulation, Freedom, LoadExtent, LoadKind,
+    Model, Procedure, RigidId, RigidMotion,
+};
 use striae_solve::{
     assembly::StepContext,
-    model::{
-        Actuation, ActuationKind, Axes, BodyId, Curve, Formulation, Freedom, LoadExtent, LoadKind,
-        Model, Procedure, RigidId, RigidMotion,
-    },
     newton::{Workspace, advance},
     problem::Problem,
     state::State,

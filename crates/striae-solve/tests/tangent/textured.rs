@@ -2,12 +2,8 @@
 
 use striae_contact::{pair::Enforcement, placement::Placement, unknowns::Status};
 use striae_mesh::{NodeId, Vec3, generate::Block};
-use striae_solve::{
-    assembly::StepContext,
-    model::{Model, RigidShape},
-    problem::Problem,
-    state::State,
-};
+use striae_model::{Model, RigidShape};
+use striae_solve::{assembly::StepContext, problem::Problem, state::State};
 use striae_surface::texture::{Axis, Field, Lines, Paint};
 
 use crate::{

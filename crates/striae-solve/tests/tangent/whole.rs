@@ -6,13 +6,13 @@ use striae_contact::{
     complementarity::Iteration, segment::Derivatives, selection::Selection, side::Side,
     slip_freedom::SlipFreedom, traction_basis::Weak, unknowns::Status,
 };
+use striae_model::node::GlobalNode;
 use striae_solve::{
     assembly::{
         Assembled, Contact, ElementPlaces, Imposed, Setting, StepContext, Trial, assemble,
         assemble_contact,
     },
     layout::{Extent, Layout},
-    node::GlobalNode,
     state::State,
 };
 use striae_sparse::{LinearOperator, Structure, Supervariable};

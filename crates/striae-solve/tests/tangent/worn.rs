@@ -1,7 +1,8 @@
 //! Tangent of contact whose gaps open by wear, in nodes of every status.
 
 use striae_contact::{side::Side, unknowns::Status};
-use striae_solve::{assembly::StepContext, model::Model, problem::Problem, state::State};
+use striae_model::Model;
+use striae_solve::{assembly::StepContext, problem::Problem, state::State};
 use striae_verify::Random;
 
 use crate::{

@@ -5,10 +5,10 @@ use crate::scene::{
 };
 use striae_law::friction::Friction;
 use striae_mesh::Vec3;
+use striae_model::{
+    BodyId, Curve, Displacement, Increments, LoadExtent, LoadKind, Model, PairId, Release,
+};
 use striae_solve::{
-    model::{
-        BodyId, Curve, Displacement, Increments, LoadExtent, LoadKind, Model, PairId, Release,
-    },
     outcome::{CutBack, Ending},
     report::pairs,
 };

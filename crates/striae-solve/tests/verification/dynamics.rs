@@ -4,19 +4,17 @@ use crate::scene::{Places, Run, block, body, coulomb, increments, model, plane, 
 use striae_contact::evaluation::Evaluation;
 use striae_law::bulk::{LameConstants, Material};
 use striae_mesh::Vec3;
-use striae_solve::report::{bodies, pairs};
+use striae_model::{BodyId, ContactMass, Curve, Gravity, Model, Mover, Procedure, Step, Velocity};
 use striae_solve::{
     drive::{Continue, Observer, Point, Progress, run},
+    dynamics::{Scheme, mass_times, momentum},
     newton::{InStep, Increment, IterationObserver},
     norms::Norms,
     outcome::{CutBack, Ending},
     problem::Problem,
+    report::{bodies, pairs},
     state::State,
     warning::{Judgement, Kind},
-};
-use striae_solve::{
-    dynamics::{Scheme, mass_times, momentum},
-    model::{BodyId, ContactMass, Curve, Gravity, Model, Mover, Procedure, Step, Velocity},
 };
 use striae_verify::fitted_rate;
 

@@ -6,11 +6,11 @@ use striae_law::{
     friction::Friction,
 };
 use striae_mesh::Vec3;
-use striae_solve::{
-    model::{BodyId, Freedom, LoadExtent, LoadKind, Model, RigidId, RigidMotion},
-    model::{Curve, RigidShape, RigidSurface},
-    outcome::{CutBack, Ending, FreeMover},
+use striae_model::{
+    BodyId, Curve, Freedom, LoadExtent, LoadKind, Model, RigidId, RigidMotion, RigidShape,
+    RigidSurface,
 };
+use striae_solve::outcome::{CutBack, Ending, FreeMover};
 
 /// A block over a floor, pressed by a pressure on its top.
 fn pressed(gap: f64, friction: Friction) -> Model {

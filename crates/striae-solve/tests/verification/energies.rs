@@ -1,10 +1,8 @@
 //! Balance of energy and sign of dissipation.
 
 use crate::scene::{Places, Run, block, body, coulomb, increments, model, plane, rubber, step};
-use striae_solve::{
-    model::{Curve, Model},
-    state::Energies,
-};
+use striae_model::{Curve, Model};
+use striae_solve::state::Energies;
 use striae_verify::fitted_rate;
 
 /// A block on a plane, pressed, slid to and fro in so many increments a step.

@@ -8,7 +8,7 @@ use striae_law::bulk::{
     Volumetric,
 };
 use striae_mesh::{ElementId, Vec3};
-use striae_solve::model::{BodySection, Formulation, Increments, Model};
+use striae_model::{BodySection, Formulation, Increments, Model};
 
 fn linear(ground: Material, modulus: f64, direction: Direction) -> Material {
     let stiffness = FibreStiffness::Linear { modulus };

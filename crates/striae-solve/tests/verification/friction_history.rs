@@ -13,8 +13,8 @@ use striae_law::{
     friction::Friction,
 };
 use striae_mesh::Vec3;
+use striae_model::{Model, PairId, Step, Strategy};
 use striae_solve::{
-    model::{Model, PairId, Step, Strategy},
     report::{PairReport, pairs},
     state::State,
 };

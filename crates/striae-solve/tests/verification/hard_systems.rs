@@ -10,11 +10,8 @@ use striae_mesh::{
     Vec3,
     generate::{CappedBlock, Half, HalfCylinder},
 };
-use striae_solve::{
-    model::{Backend, LoadExtent, LoadKind, Model},
-    outcome::Ending,
-    repetition::Difference,
-};
+use striae_model::{Backend, LoadExtent, LoadKind, Model};
+use striae_solve::{outcome::Ending, repetition::Difference};
 
 /// A block of the given width, `gap` above the middle of a larger one whose bottom is held.
 fn blocks([first, second]: [Material; 2], width: f64, gap: f64) -> Model {

@@ -5,7 +5,7 @@ use crate::scene::{
 };
 use nalgebra::Rotation3;
 use striae_mesh::{Mesh, Renumbering, Vec3};
-use striae_solve::model::{LoadExtent, LoadKind, Model};
+use striae_model::{LoadExtent, LoadKind, Model};
 use striae_solve::report::pairs;
 use striae_verify::Random;
 

@@ -6,10 +6,8 @@ use striae_law::bulk::{
     Volumetric,
 };
 use striae_mesh::Vec3;
-use striae_solve::{
-    model::{Curve, Formulation, LoadExtent, LoadKind, Model},
-    state::Energies,
-};
+use striae_model::{Curve, Formulation, LoadExtent, LoadKind, Model};
+use striae_solve::state::Energies;
 use striae_verify::fitted_rate;
 
 const SHEAR: f64 = 1.0;

@@ -4,7 +4,7 @@ use crate::{
     dynamics::moving,
     scene::{Places, Run, block, body, model, rubber},
 };
-use striae_solve::model::Curve;
+use striae_model::Curve;
 
 /// Work done on a body that is moved from rest to rest with all of its nodes, and what the
 /// time integration gains by it, over the largest kinetic energy.

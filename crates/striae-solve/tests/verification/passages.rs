@@ -4,12 +4,12 @@ use crate::scene::{Places, Run, block, body, coulomb, increments, model, plane, 
 use striae_contact::interference::{Kind, SHARE};
 use striae_law::friction::Friction;
 use striae_mesh::{NodeId, Vec3};
+use striae_model::{
+    BodyId, Curve, Freedom, InterferenceFit, Model, Mover, Procedure, RigidId, RigidMotion,
+    RigidShape, Velocity,
+};
 use striae_solve::{
     interference::{between, within},
-    model::{
-        BodyId, Curve, Freedom, InterferenceFit, Model, Mover, Procedure, RigidId, RigidMotion,
-        RigidShape, Velocity,
-    },
     outcome::{CutBack, Ending},
     report::pairs,
 };

@@ -15,7 +15,7 @@ use striae_law::{
     friction::Friction,
 };
 use striae_mesh::{CellKind, Vec3, generate::Block};
-use striae_solve::model::{LoadExtent, LoadKind, Model};
+use striae_model::{LoadExtent, LoadKind, Model};
 
 const PRESSURE: f64 = 0.1;
 const HEIGHT: f64 = 0.5;

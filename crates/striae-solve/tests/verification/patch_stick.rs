@@ -9,7 +9,7 @@ use nalgebra::Matrix3;
 use striae_contact::unknowns::Status;
 use striae_law::bulk::Material;
 use striae_mesh::{CellKind, NodeId, Vec3};
-use striae_solve::model::{Axes, BodyId, Curve, Displacement, LoadExtent, LoadKind, Model, Step};
+use striae_model::{Axes, BodyId, Curve, Displacement, LoadExtent, LoadKind, Model, Step};
 
 const SLOPES: [f64; 2] = [0.2, -0.1];
 

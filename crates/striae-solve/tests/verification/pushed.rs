@@ -5,12 +5,11 @@ use crate::{
     scene::{Places, Run, block, body, coulomb, increments, model, rubber, step},
 };
 use striae_mesh::{NodeId, Vec3};
+use striae_model::{
+    BodyId, Curve, Freedom, Model, Mover, RigidId, RigidInertia, RigidMotion, RigidShape, Velocity,
+};
 use striae_solve::{
     dynamics::momentum,
-    model::{
-        BodyId, Curve, Freedom, Model, Mover, RigidId, RigidInertia, RigidMotion, RigidShape,
-        Velocity,
-    },
     outcome::Ending,
     report::{pairs, reactions, rigid_bodies},
 };

@@ -5,14 +5,11 @@ use crate::{
     scene::{Places, Run, block, body, increments, model, rubber, step},
 };
 use striae_mesh::Vec3;
-use striae_solve::{
-    dynamics::momentum,
-    model::{
-        BodyId, Curve, Freedom, Gravity, Model, Mover, RigidId, RigidInertia, RigidMotion,
-        RigidShape, RigidSurface, Velocity,
-    },
-    rigid::fitted_velocity,
+use striae_model::{
+    BodyId, Curve, Freedom, Gravity, Model, Mover, RigidId, RigidInertia, RigidMotion, RigidShape,
+    RigidSurface, Velocity,
 };
+use striae_solve::{dynamics::momentum, rigid::fitted_velocity};
 use striae_verify::fitted_rate;
 
 const FREE: [Freedom; 6] = [Freedom::Free; 6];

@@ -4,7 +4,7 @@ use crate::scene::{
     Places, Run, block, body, coulomb, increments, largest_distance, model, plane, rubber, step,
 };
 use striae_mesh::{NodeId, Vec3};
-use striae_solve::model::{Model, RigidShape};
+use striae_model::{Model, RigidShape};
 
 /// Division of a square grid of rigid facets.
 #[derive(Clone, Copy)]

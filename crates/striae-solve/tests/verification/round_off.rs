@@ -3,7 +3,7 @@
 
 use crate::scene::{Places, Run, block, body, increments, model, rubber, step};
 use striae_mesh::Vec3;
-use striae_solve::model::{BodyId, Model, Mover, Procedure, Velocity};
+use striae_model::{BodyId, Model, Mover, Procedure, Velocity};
 
 /// A plate of elements eight times as wide as high, far from the origin, set spinning.
 fn spinning(poissons_ratio: f64) -> Model {

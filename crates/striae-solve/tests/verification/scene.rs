@@ -8,13 +8,13 @@ use striae_law::{
     friction::Friction,
 };
 use striae_mesh::{CellBlock, Face, Mesh, NodeId, Vec3, generate::Block};
+use striae_model::{
+    Axes, Backend, Body, BodyId, ContactMass, ContactSurface, Curve, Displacement, Formulation,
+    Increments, Initial, Load, LoadExtent, LoadKind, Model, Pair, PairId, Procedure, RigidId,
+    RigidShape, RigidSurface, Solver, Step, Strategy,
+};
 use striae_solve::{
     drive::{Continue, Observer, Progress, run},
-    model::{
-        Axes, Backend, Body, BodyId, ContactMass, ContactSurface, Curve, Displacement, Formulation,
-        Increments, Initial, Load, LoadExtent, LoadKind, Model, Pair, PairId, Procedure, RigidId,
-        RigidShape, RigidSurface, Solver, Step, Strategy,
-    },
     newton::{Increment, IterationObserver, LinearWork},
     norms::Norms,
     outcome::{CutBack, Ending},

@@ -6,13 +6,8 @@ use striae_law::bulk::{
     Volumetric,
 };
 use striae_mesh::{ElementId, Mesh, Vec3};
-use striae_solve::{
-    dynamics::kinetic_energy,
-    model::{BodySection, Formulation, Model},
-    problem::Problem,
-    report::bodies,
-    state::State,
-};
+use striae_model::{BodySection, Formulation, Model};
+use striae_solve::{dynamics::kinetic_energy, problem::Problem, report::bodies, state::State};
 
 fn metal() -> Material {
     let constants = LameConstants::from_youngs_modulus(100.0, 0.3).unwrap();

@@ -5,10 +5,8 @@
 use striae_contact::{side::Side, unknowns::Status};
 use striae_law::friction::Friction;
 use striae_mesh::{CellBlock, Mesh, NodeId, Vec3};
-use striae_solve::{
-    model::{LoadExtent, LoadKind, Model, Step},
-    outcome::Ending,
-};
+use striae_model::{LoadExtent, LoadKind, Model, Step};
+use striae_solve::outcome::Ending;
 use striae_surface::texture::{Field, Lines, Paint};
 
 use crate::{

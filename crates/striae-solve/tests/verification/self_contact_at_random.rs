@@ -6,8 +6,8 @@ use std::{ops::Range, time::Instant};
 
 use striae_contact::{side::Side, unknowns::Status};
 use striae_mesh::{CellBlock, Mesh, NodeId, Vec3};
+use striae_model::{Curve, Freedom, Model, RigidId, RigidMotion};
 use striae_solve::{
-    model::{Curve, Freedom, Model, RigidId, RigidMotion},
     newton::InStep,
     outcome::Ending,
     warning::{Judgement, Kind, Warning},

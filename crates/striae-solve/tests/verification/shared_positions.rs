@@ -2,13 +2,8 @@
 
 use striae_contact::{pair::Enforcement, side::Side};
 use striae_mesh::{Face, NodeId, Vec3};
-use striae_solve::{
-    model::{ContactSurface, Curve, LoadExtent, LoadKind, Model, Pair, RigidShape},
-    outcome::Ending,
-    problem::Problem,
-    report::pairs,
-    state::State,
-};
+use striae_model::{ContactSurface, Curve, LoadExtent, LoadKind, Model, Pair, RigidShape};
+use striae_solve::{outcome::Ending, problem::Problem, report::pairs, state::State};
 
 use crate::scene::{
     Places, Run, block, body, coulomb, increments, model, plane, pressed_on_plane, rubber, step,

@@ -3,8 +3,8 @@
 use crate::scene::{Places, Run, block, body, coulomb, increments, model, rubber, step};
 use striae_contact::interference::SHARE;
 use striae_mesh::{CellBlock, Mesh, NodeId, Vec3, generate::Block};
+use striae_model::Model;
 use striae_solve::{
-    model::Model,
     newton::InStep,
     outcome::{CutBack, Ending, Remedy, Start},
     warning::{Judgement, Kind, Warning},

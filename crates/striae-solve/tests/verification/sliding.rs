@@ -5,8 +5,8 @@ use crate::scene::{
 };
 use striae_contact::{side::Side, unknowns::Status};
 use striae_mesh::Vec3;
+use striae_model::Model;
 use striae_solve::{
-    model::Model,
     norms::Norms,
     report::{PairReport, pairs},
 };

@@ -3,11 +3,11 @@
 use crate::scene::{Places, Run, block, body, coulomb, increments, model, plane, rubber, step};
 use striae_law::friction::Friction;
 use striae_mesh::{NodeId, Vec3};
+use striae_model::{
+    Curve, Freedom, LoadExtent, LoadKind, Model, PairId, RigidId, RigidMotion, RigidShape,
+    RigidSurface,
+};
 use striae_solve::{
-    model::{
-        Curve, Freedom, LoadExtent, LoadKind, Model, PairId, RigidId, RigidMotion, RigidShape,
-        RigidSurface,
-    },
     outcome::{CutBack, Ending, FreeMover},
     report::pairs,
 };
@@ -288,7 +288,7 @@ fn a_free_body_is_advised_to_be_stabilised_where_that_helps() {
     let mut pair = model.pairs[PairId(0).0].clone();
     pair.name = "wall".to_owned();
     pair.stabilised = false;
-    pair.b = striae_solve::model::ContactSurface::Rigid(RigidId(1));
+    pair.b = striae_model::ContactSurface::Rigid(RigidId(1));
     model.pairs.push(pair);
     assert_eq!(Run::of(model).ending, Ending::Completed);
 }

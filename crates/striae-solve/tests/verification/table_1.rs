@@ -2,7 +2,7 @@
 
 use crate::scene::{Places, Run, block, increments, largest_distance, pressed_on_plane, step};
 use striae_contact::unknowns::Status;
-use striae_solve::model::{Model, Strategy};
+use striae_model::{Model, Strategy};
 
 const MU: f64 = 0.3;
 

@@ -13,7 +13,7 @@ use crate::scene::{Run, body, increments, model, step};
 use std::collections::HashMap;
 use striae_law::bulk::{Hardening, LameConstants, Material, Plastic};
 use striae_mesh::{CellBlock, CellKind, ElementId, Face, Mesh, NodeId, Vec3};
-use striae_solve::model::{Axes, BodyId, Curve, Displacement, Load, LoadExtent, LoadKind, Model};
+use striae_model::{Axes, BodyId, Curve, Displacement, Load, LoadExtent, LoadKind, Model};
 use striae_verify::fitted_rate;
 
 const INNER: f64 = 1.0;

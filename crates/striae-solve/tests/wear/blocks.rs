@@ -3,13 +3,8 @@
 use striae_contact::side::Side;
 use striae_law::bulk::{LameConstants, Material};
 use striae_mesh::{NodeId, Vec3};
-use striae_solve::{
-    model::{Axes, BodyId, Curve, Displacement, LoadExtent, LoadKind, Model},
-    newton::InStep,
-    report::pairs,
-    state::State,
-    warning::Judgement,
-};
+use striae_model::{Axes, BodyId, Curve, Displacement, LoadExtent, LoadKind, Model};
+use striae_solve::{newton::InStep, report::pairs, state::State, warning::Judgement};
 use striae_surface::texture::{Field, Lines, Paint};
 
 use crate::scene::{Places, Run, block, body, coulomb, increments, model, plane, step};

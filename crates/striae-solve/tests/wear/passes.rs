@@ -6,7 +6,7 @@ use striae_law::{
     friction::{Friction, SlipRule},
 };
 use striae_mesh::{NodeId, Vec3};
-use striae_solve::model::{Axes, BodyId, Curve, Displacement, LoadExtent, LoadKind, Model};
+use striae_model::{Axes, BodyId, Curve, Displacement, LoadExtent, LoadKind, Model};
 use striae_surface::texture::{Field, Lines, Paint};
 
 use crate::scene::{Places, Run, block, body, increments, model, plane, step};

@@ -15,11 +15,13 @@
 
 use striae_contact::{initial::Fit, opposite::Opposite};
 use striae_mesh::significant;
-use striae_model::{Backend, ContactSurface, Model, PairId};
+use striae_model::{
+    Backend, ContactSurface, Model, PairId,
+    initial::{opposite, other_name},
+};
 use striae_output::available_bytes;
 use striae_solve::{
     drive::fewest_increments,
-    initial::{opposite, other_name},
     newton::{Analysis, Estimate, estimate},
     problem::Problem,
 };

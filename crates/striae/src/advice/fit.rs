@@ -2,11 +2,11 @@
 
 use striae_contact::{initial::Fit, interference::Spot, side::Side};
 use striae_mesh::{Vec3, place, significant};
-use striae_model::{ContactSurface, Model, Pair, PairId, RigidShape};
-use striae_solve::{
+use striae_model::{
+    ContactSurface, Model, Pair, PairId, RigidShape,
     initial::{ROUND_OFF, other_name, surface_node, turned},
-    warning::warnings_at_start,
 };
+use striae_solve::warning::warnings_at_start;
 
 use super::{Advice, Topic};
 

@@ -12,8 +12,8 @@ use striae_law::friction::Law;
 use striae_mesh::{Mesh, Vec3};
 use striae_model::{
     Body, BodyId, ContactSurface, Model, Mover, PairId, Procedure, RigidMotions, Step,
+    initial::opposed,
 };
-use striae_solve::initial::opposed;
 
 use super::{Advice, Topic};
 

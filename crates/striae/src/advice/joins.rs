@@ -3,8 +3,9 @@
 
 use striae_law::friction::Friction;
 use striae_mesh::{Vec3, place};
-use striae_model::{Body, BodyId, ContactSurface, Enforcement, Initial, Model, Pair};
-use striae_solve::initial::fits;
+use striae_model::{
+    Body, BodyId, ContactSurface, Enforcement, Initial, Model, Pair, initial::fits,
+};
 
 use super::{Advice, Topic, shape::extent};
 

@@ -20,8 +20,9 @@ use std::collections::BTreeSet;
 use striae_contact::initial::Fit;
 
 use striae_mesh::{Mesh, NodeId, Vec3};
-use striae_model::{BodyId, ContactSurface, Freedom, Model, Pair, RigidId, RigidShape, Step};
-use striae_solve::initial::opposed;
+use striae_model::{
+    BodyId, ContactSurface, Freedom, Model, Pair, RigidId, RigidShape, Step, initial::opposed,
+};
 
 use super::{Advice, Topic};
 

@@ -1,8 +1,7 @@
 //! Overlaps of curved surfaces that are pressed out, whose facets overlap by more or less.
 
 use striae_contact::initial::Fit;
-use striae_model::{Initial, Model, PairId};
-use striae_solve::initial::conforms;
+use striae_model::{Initial, Model, PairId, initial::conforms};
 
 use super::{Advice, Topic};
 

@@ -1,8 +1,7 @@
 //! Restraint of bodies by ties, and motions that ties leave free.
 
 use striae_mesh::significant;
-use striae_model::Model;
-use striae_solve::tie::Ties;
+use striae_model::{Model, tie::Ties};
 
 use super::{Advice, Topic};
 

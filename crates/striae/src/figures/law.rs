@@ -7,7 +7,7 @@
 use striae_figure::{Axis, Content, Figure, Panel, Series, Width};
 use striae_files::Stems;
 use striae_law::friction::{Analysis, Friction, Law, SlipSample};
-use striae_solve::model::Model;
+use striae_model::Model;
 
 /// Points of a slip surface that is drawn.
 pub const SAMPLES: usize = 720;

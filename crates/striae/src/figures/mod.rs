@@ -10,7 +10,7 @@ pub mod texture;
 pub use surface::TexturedSurface;
 
 use striae_contact::side::Side;
-use striae_solve::model::{ContactSurface, Model};
+use striae_model::{ContactSurface, Model};
 
 /// Body or surface that a side of a pair belongs to, in words.
 pub fn owner(model: &Model, pair: usize, side: Side) -> String {

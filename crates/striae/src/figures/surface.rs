@@ -2,7 +2,8 @@
 
 use striae_contact::{pair::Geometry, side::Side, texture::SideTexture};
 use striae_mesh::{NodeId, Vec3};
-use striae_solve::{pair_geometry::PairError, problem::Problem};
+use striae_model::pair_geometry::PairError;
+use striae_solve::problem::Problem;
 use striae_surface::{
     node::SurfaceNode,
     normal::nodal_normals,

@@ -18,11 +18,11 @@ use std::{
 };
 
 use striae_deck::Setting;
-use striae_output::checkpoint::{Checkpoint, CheckpointError, Index, step_fingerprint};
-use striae_solve::{
-    model::{Actuation, BodyId, Curve, Gravity, Load, Model, NodalForce, RigidMotion, Step},
+use striae_model::{
+    Actuation, BodyId, Curve, Gravity, Load, Model, NodalForce, RigidMotion, Step,
     plan::{PlannedActuation, PlannedForce, PlannedLoad, plans},
 };
+use striae_output::checkpoint::{Checkpoint, CheckpointError, Index, step_fingerprint};
 
 use super::{Begun, Simulation, case_name, read_again, source};
 use crate::{

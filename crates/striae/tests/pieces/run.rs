@@ -8,6 +8,7 @@ use std::{
 
 use striae::{
     deck::{self, Deck},
+    model::Backend,
     output::{
         Existing, OutputError,
         checkpoint::{
@@ -17,7 +18,6 @@ use striae::{
     },
     solve::{
         drive::{self, Continue, Observer, Point, Progress},
-        model::Backend,
         newton::{Increment, IterationObserver, Workspace},
         outcome::{CutBack, Ending},
         problem::Problem,

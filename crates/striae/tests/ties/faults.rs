@@ -4,9 +4,8 @@ use std::path::Path;
 
 use striae::{
     deck,
-    model::{Fault, FaultKind},
+    model::{Fault, FaultKind, tie::TieFault},
     prelude::*,
-    solve::tie::TieFault,
 };
 
 use super::scene::{halves, pull, rubber, tie, tied};

@@ -4,9 +4,8 @@ use std::path::Path;
 
 use striae::{
     deck,
-    model::{FaultKind, ModelBuilder, StepBuilder},
+    model::{FaultKind, ModelBuilder, StepBuilder, tie::TieFault},
     prelude::*,
-    solve::tie::TieFault,
 };
 
 use super::scene::{glue, halves, rubber, run, tie};

@@ -26,8 +26,9 @@
 //! 6.1, for the tangent. Abaqus writes `2 mu_i/alpha_i^2` for `mu_p/alpha_p`.
 
 use super::{InadmissibleHyperelastic, Isochoric, finite};
-use crate::bulk::invariants::inverse;
-use crate::bulk::{Material, RUBBER, Response, ResponseError, Tangent, Volumetric};
+use crate::bulk::{
+    Material, RUBBER, Response, ResponseError, Tangent, Volumetric, invariants::inverse,
+};
 use nalgebra::{Matrix3, SVector, SymmetricEigen};
 use serde::Serialize;
 use striae_declared::{ANY, Declared, NO_UNIT, Parameter, Set, Values};

@@ -12,11 +12,13 @@ use striae_verify::derivative::directional;
 use striae_verify::{Difference, Random};
 
 use super::Violation;
-use crate::friction::RequiredTextures;
-use crate::friction::factor::{
-    Factor, FactorBatch, FactorPoints,
-    samples::{DURATIONS, POINTS, ROUND_OFF, samples, states_after},
-    sound_factors,
+use crate::friction::{
+    RequiredTextures,
+    factor::{
+        Factor, FactorBatch, FactorPoints,
+        samples::{DURATIONS, POINTS, ROUND_OFF, samples, states_after},
+        sound_factors,
+    },
 };
 
 /// Change of a factor next to rest that says anything about its slope.

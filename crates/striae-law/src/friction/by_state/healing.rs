@@ -48,10 +48,12 @@ use num_dual::DualNum;
 use serde::Serialize;
 
 use super::StateDependence;
-use crate::friction::error::{FactorFailure, FrictionError, not_negative, positive, within};
-use crate::friction::factor::{
-    Course, Factor, FactorBatch, FactorLane, FactorLaw, FactorPoint, FactorPoints, FactorRange,
-    PointWise,
+use crate::friction::{
+    error::{FactorFailure, FrictionError, not_negative, positive, within},
+    factor::{
+        Course, Factor, FactorBatch, FactorLane, FactorLaw, FactorPoint, FactorPoints, FactorRange,
+        PointWise,
+    },
 };
 use striae_declared::{
     Absent, Bound, Declared, NO_UNIT, NOT_NEGATIVE, POSITIVE, Parameter, Values,

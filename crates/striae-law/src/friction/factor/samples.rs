@@ -4,8 +4,10 @@ use nalgebra::Vector3;
 use striae_verify::Random;
 
 use super::{Course, Factor, FactorBatch, FactorPoints, LARGEST_STATE, sound_factors};
-use crate::friction::RequiredTextures;
-use crate::friction::error::{FactorFailure, FrictionError};
+use crate::friction::{
+    RequiredTextures,
+    error::{FactorFailure, FrictionError},
+};
 
 /// Random points of a batch.
 pub(in crate::friction) const POINTS: usize = 32;

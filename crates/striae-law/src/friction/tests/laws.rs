@@ -5,10 +5,9 @@ use proptest::prelude::*;
 use striae_verify::Random;
 
 use super::{slipping, tabulated::tabulated};
-use crate::friction::battery;
 use crate::friction::{
     Friction, FrictionError, Kernel, Law, Nap, Orthotropic, RequiredTextures, SlipRule, Textures,
-    TwoTextures,
+    TwoTextures, battery,
 };
 
 #[test]

@@ -16,8 +16,10 @@
 //! towards the core by [`refined_lengths`]; nodes of the arc lie on the circle.
 
 use super::HalfCylinder;
-use crate::MeshError;
-use crate::generate::grading::{mirrored, refined_lengths, unit_partial_sums, whole};
+use crate::{
+    MeshError,
+    generate::grading::{mirrored, refined_lengths, unit_partial_sums, whole},
+};
 use std::f64::consts::FRAC_PI_4;
 
 /// The half disc below the `x` axis, centre at the origin.

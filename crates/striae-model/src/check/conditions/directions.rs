@@ -3,14 +3,15 @@
 
 use std::collections::BTreeMap;
 
-use striae_mesh::{NodeId, Vec3};
-use striae_solve::{
+use crate::{
     axes::{Axes, NodeFrame, are_parallel},
+    check::Draft,
+    fault::FaultKind,
     model::{BodyId, Curve, Displacement, Release, Step, Value},
 };
+use striae_mesh::{NodeId, Vec3};
 
 use super::{COMPONENTS, Freedom, along};
-use crate::{check::Draft, fault::FaultKind};
 
 /// A direction along which a node is prescribed.
 struct Direction {

@@ -24,10 +24,10 @@ use striae_surface::node::SurfaceNode;
 
 use super::StepContext;
 use crate::{
-    load,
     stabilisation::{Dashpot, Point, acts, first_increment},
     state::State,
 };
+use striae_model::load;
 
 /// Penetration of the gap by the first increment without contact, over the gap or, if that is less,
 /// the facet size.

@@ -1,5 +1,5 @@
 //! Nodes that are prescribed along other directions than the coordinate axes in a step, see
-//! [`crate::axes`].
+//! [`striae_model::axes`].
 
 use std::collections::BTreeMap;
 
@@ -8,14 +8,12 @@ use striae_contact::side::Side;
 use striae_mesh::{NodeId, Vec3};
 
 use super::StepContext;
-use crate::{
+use crate::{dynamics::ImposedRate, problem::Problem, state::State};
+use striae_model::{
+    Moment,
     axes::NodeFrame,
-    dynamics::ImposedRate,
-    model::Moment,
     node::GlobalNode,
     plan::{Prescription, StepPlan},
-    problem::Problem,
-    state::State,
 };
 
 /// Nodes with frames of their own.

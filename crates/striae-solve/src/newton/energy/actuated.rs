@@ -4,10 +4,8 @@ use rayon::prelude::*;
 use striae_mesh::{ElementId, Vec3};
 
 use super::{Ends, mean};
-use crate::{
-    actuation::{Actuations, SectionActuation},
-    problem::Problem,
-};
+use crate::problem::Problem;
+use striae_model::actuation::{Actuations, SectionActuation};
 
 /// The bodies at one end of an increment.
 struct End<'a> {

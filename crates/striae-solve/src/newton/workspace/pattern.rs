@@ -3,7 +3,8 @@
 use striae_condensed::Growth;
 use striae_sparse::Supervariable;
 
-use crate::{layout::Layout, node::GlobalNode, problem::Problem};
+use crate::{layout::Layout, problem::Problem};
+use striae_model::node::GlobalNode;
 
 /// Supervariables that are coupled by all but contact.
 pub(super) struct Pattern {

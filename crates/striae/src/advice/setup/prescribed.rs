@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 
 use striae_contact::initial::Fit;
 use striae_mesh::{Face, Mesh, NodeId};
-use striae_model::{ContactSurface, LoadKind, Model, Pair, Step, Value};
-use striae_solve::{
+use striae_model::{
+    ContactSurface, LoadKind, Model, Pair, Step, Value,
     initial::opposed,
     plan::{PlannedForce, PlannedLoad, Prescription, StepPlan, plans},
 };

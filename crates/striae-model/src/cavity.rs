@@ -102,12 +102,7 @@ impl CavitySurface {
     }
 
     /// Part of the volume that belongs to a face, by the forces of a unit pressure on it.
-    pub(crate) fn part(
-        &self,
-        corners: &[GlobalNode; 4],
-        load: &FaceLoad,
-        positions: &[Vec3],
-    ) -> f64 {
+    pub fn part(&self, corners: &[GlobalNode; 4], load: &FaceLoad, positions: &[Vec3]) -> f64 {
         let forces = load.force.chunks_exact(3).map(Vec3::from_column_slice);
         let parts = corners.iter().zip(forces);
         let parts = parts.map(|(corner, force)| {
@@ -118,7 +113,7 @@ impl CavitySurface {
 }
 
 /// Forces of a unit pressure on the corners of a face.
-pub(crate) fn pressed(
+pub fn pressed(
     corners: &[GlobalNode; 4],
     reference: &[Vec3],
     positions: &[Vec3],
@@ -132,7 +127,7 @@ pub(crate) fn pressed(
 }
 
 /// Surfaces of all cavities of a model with the nodes at rest at `reference`.
-pub(crate) fn surfaces(
+pub fn surfaces(
     model: &Model,
     first_node: &[usize],
     (reference, plans): (&[Vec3], &[StepPlan]),
@@ -177,12 +172,7 @@ pub fn enclosed(model: &Model, cavity: usize) -> Result<f64, RimFault> {
 impl PlannedCavity {
     /// Content at a moment of a step that finds a pressure and a volume, of a cavity with a volume at
     /// rest.
-    pub(crate) fn content(
-        &self,
-        [pressure, volume]: [f64; 2],
-        rest: f64,
-        moment: Moment,
-    ) -> Content {
+    pub fn content(&self, [pressure, volume]: [f64; 2], rest: f64, moment: Moment) -> Content {
         let along = |at_rest: f64, from: f64, target: f64| match &self.curve {
             None => from,
             Some(curve) => {

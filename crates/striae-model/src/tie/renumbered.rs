@@ -8,7 +8,7 @@ use crate::node::GlobalNode;
 impl Ties {
     /// Ties for a mesh whose nodes have other numbers in unchanged order: `number` maps global
     /// nodes, of which there are `count`, `in_mesh` nodes of the mesh of a body.
-    pub(crate) fn renumbered(
+    pub fn renumbered(
         self,
         count: usize,
         number: impl Fn(GlobalNode) -> GlobalNode,

@@ -71,7 +71,7 @@ impl SectionActuation {
     }
 
     /// Adds a part.
-    pub(crate) fn add(&mut self, kind: &ActuationKind) {
+    pub fn add(&mut self, kind: &ActuationKind) {
         match *kind {
             ActuationKind::Strain(strain) => self.strain += strain,
             ActuationKind::Thermal { .. } => {
@@ -104,7 +104,7 @@ impl SectionActuation {
     }
 
     /// The actuation of an element whose points remember the directions of fibres of its material.
-    pub(crate) fn of_element(&self, material: &Material, variables: &[f64]) -> element::Actuation {
+    pub fn of_element(&self, material: &Material, variables: &[f64]) -> element::Actuation {
         let mut strain = self.strain;
         let tension = |&(along, value): &(Vec3, f64)| Tension { along, value };
         let mut tensions: Vec<Tension> = self.tensions.iter().map(tension).collect();
@@ -124,7 +124,7 @@ impl SectionActuation {
     }
 
     /// Material of an element with its actuation.
-    pub(crate) fn drive<'a>(
+    pub fn drive<'a>(
         of_section: Option<&Self>,
         material: &'a Material,
         variables: &[f64],

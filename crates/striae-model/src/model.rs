@@ -214,8 +214,7 @@ pub struct Pair {
     /// Coefficients of wear across the texture of side `a`, or of `b` where `a` has none, over
     /// those along it.
     pub wear_across: f64,
-    /// `true` if viscous forces carry bodies without other restraints across the gap, see
-    /// [`crate::stabilisation`].
+    /// `true` if viscous forces carry bodies without other restraints across the gap.
     pub stabilised: bool,
     /// Dihedral angle in degrees from which on facets that share an edge belong to different
     /// faces: nodes on such an edge have a normal and a traction for each. `None`: one for all.
@@ -257,7 +256,7 @@ impl Pair {
     }
 }
 
-/// Two surfaces of bodies that are glued from the start, see [`crate::tie`].
+/// Two surfaces of bodies that are glued from the start, see [`tie`](mod@crate::tie).
 #[derive(Clone, Debug, Serialize)]
 pub struct Tie {
     /// Unique name.
@@ -298,7 +297,7 @@ pub struct Spring {
     pub rest: SpringRest,
 }
 
-/// A cavity, see [`crate::cavity`].
+/// A cavity, see [`cavity`](mod@crate::cavity).
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Cavity {
     /// Unique name.
@@ -510,7 +509,7 @@ pub struct Step {
 pub enum Procedure {
     /// A sequence of equilibria.
     QuasiStatic,
-    /// Implicit dynamics, see [`crate::dynamics`].
+    /// Implicit dynamics by the generalised-alpha method.
     Dynamic {
         /// Spectral radius at infinite frequency: 1 keeps all of it, small values damp it at once.
         spectral_radius: f64,

@@ -9,11 +9,13 @@ use std::collections::BTreeSet;
 
 use striae_mesh::Vec3;
 
-use crate::model::{
-    BodyId, ContactSurface, Curve, Displacement, Freedom, Model, Moment, Mover, PairId, Procedure,
-    RigidId, RigidShape, Spring, Step,
+use crate::{
+    model::{
+        BodyId, ContactSurface, Curve, Displacement, Freedom, Model, Moment, Mover, PairId,
+        Procedure, RigidId, RigidShape, Spring, Step,
+    },
+    plan::starts,
 };
-use crate::plan::starts;
 
 /// Smallest and largest displacement along every axis.
 type Ranges = [(f64, f64); 3];

@@ -81,7 +81,7 @@ pub struct Joint {
     /// Size of the facets of the side that follows.
     pub facet_size: f64,
     /// Nodes of the tied surfaces, by side.
-    pub(crate) nodes: [Vec<GlobalNode>; 2],
+    pub nodes: [Vec<GlobalNode>; 2],
     /// Their facets in nodes of the meshes; a triangle repeats its last corner.
     facets: [Vec<[NodeId; 4]>; 2],
     /// Tied areas, by facet of the dependent side.
@@ -152,7 +152,7 @@ impl Ties {
     }
 
     /// Nodes that follow, ascending.
-    pub(crate) fn followers(&self) -> &[Follower] {
+    pub fn followers(&self) -> &[Follower] {
         &self.followers
     }
 
@@ -193,7 +193,7 @@ impl Ties {
     }
 
     /// Returns whether a tie holds a node of a body to another body, so that it cannot move past it.
-    pub(crate) fn glues(&self, node: GlobalNode, bodies: [usize; 2]) -> bool {
+    pub fn glues(&self, node: GlobalNode, bodies: [usize; 2]) -> bool {
         self.joints.iter().any(|joint| {
             let side = match joint.bodies {
                 found if found == bodies => Side::A,
@@ -223,7 +223,7 @@ impl Ties {
 
     /// Passes forces on nodes that follow to those that they follow, and leaves none; returns
     /// with every follower the force that its row takes from it.
-    pub(crate) fn pass_on(&self, forces: &mut [Vec3]) -> impl Iterator<Item = (&Follower, Vec3)> {
+    pub fn pass_on(&self, forces: &mut [Vec3]) -> impl Iterator<Item = (&Follower, Vec3)> {
         let mut taken = vec![Vec3::zeros(); self.followers.len()];
         for (axis, order) in self.orders.iter().enumerate() {
             for group in order.iter().rev() {
@@ -246,7 +246,7 @@ impl Ties {
     }
 
     /// Adds the forces of ties on nodes to those that `own` takes from a follower.
-    pub(crate) fn react(follower: &Follower, own: &Vec3, forces: &mut [Vec3]) {
+    pub fn react(follower: &Follower, own: &Vec3, forces: &mut [Vec3]) {
         for (axis, row) in follower.row.iter().enumerate() {
             if let Some(row) = row {
                 forces[follower.node][axis] += own[axis];
@@ -290,7 +290,7 @@ impl Ties {
 }
 
 /// First global node of every body, and the number of their nodes.
-pub(crate) fn first_nodes(model: &Model) -> Vec<usize> {
+pub fn first_nodes(model: &Model) -> Vec<usize> {
     let mut first_node = vec![0];
     for body in &model.bodies {
         first_node.push(first_node[first_node.len() - 1] + body.mesh.positions.len());

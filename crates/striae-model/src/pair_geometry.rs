@@ -39,7 +39,7 @@ pub struct PairGeometry {
     pub faces: [Vec<Option<Face>>; 2],
     /// Conditioning of the painting of each textured surface.
     pub conditionings: [Option<Conditioning>; 2],
-    /// Fibres through what is behind the facets, see [`crate::interference`].
+    /// Fibres through what is behind the facets, see [`striae_contact::interference`].
     pub fibres: [Vec<Option<Fibre>>; 2],
 }
 

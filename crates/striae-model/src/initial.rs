@@ -2,8 +2,8 @@
 //!
 //! Overlaps of more than two hundredths of the local facet size are a [`fault`] unless the pair
 //! states their treatment: [`close`] moves the nodes of the smaller side to the other one, without
-//! strain, as it is the reference mesh that changes; or they fade over the first step, see
-//! [`crate::offsets`].
+//! strain, as it is the reference mesh that changes; or contact
+//! presses them out over the first step.
 
 mod close;
 mod crowd;

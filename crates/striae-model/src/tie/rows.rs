@@ -18,8 +18,10 @@ use super::{
     side::finer,
     surfaces::{contact_pair, unmet},
 };
-use crate::model::{ContactSurface, Model};
-use crate::node::GlobalNode;
+use crate::{
+    model::{ContactSurface, Model},
+    node::GlobalNode,
+};
 
 /// Covered part of the best covered facet at a node below which it does not follow.
 const LEAST_COVER: f64 = 0.3;
