@@ -8,6 +8,8 @@ use pyo3::{
 };
 use striae::Error;
 
+use crate::words::in_python;
+
 /// `striae.ModelError` with these faults, each a path and a message.
 pub fn model_error(faults: Vec<(String, String)>) -> PyErr {
     Python::attach(|py| {
@@ -27,7 +29,7 @@ pub fn refused(path: impl Into<String>, message: impl ToString) -> PyErr {
 /// `striae.ModelError` with the faults of a model.
 pub fn model_faults(faults: &striae::model::Faults) -> PyErr {
     let faults = faults.0.iter();
-    let told = faults.map(|fault| (fault.path.to_string(), fault.kind.to_string()));
+    let told = faults.map(|fault| (fault.path.to_string(), in_python(&fault.kind)));
     model_error(told.collect())
 }
 
@@ -54,8 +56,8 @@ pub fn raised(error: Error, place: &str) -> PyErr {
         | Error::NotCompleted
         | Error::NotFromTheStart => PyRuntimeError::new_err(error.to_string()),
         Error::Unlike(_) => refused("parameters", error),
-        Error::Problem(_)
-        | Error::NotTogether
+        Error::Problem(_) => refused(place, in_python(&error)),
+        Error::NotTogether
         | Error::Mesh(_)
         | Error::MeshFile(_)
         | Error::Friction(_)

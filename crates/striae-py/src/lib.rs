@@ -33,6 +33,7 @@ mod start;
 mod step;
 mod texture;
 mod tie;
+mod words;
 
 use pyo3::prelude::*;
 

@@ -30,6 +30,7 @@ use crate::{
     start,
     step::Step,
     tie::Tie,
+    words::in_python,
 };
 
 /// A model that has been found valid, and where it comes from.
@@ -255,7 +256,7 @@ impl Model {
         let model = self.model.clone();
         let advice = py.detach(move || Advice::of(&model));
         [advice.faults, advice.warnings, advice.notes].map(|remarks| {
-            let told = |one: Remark| (one.topic.name(), one.name, one.text);
+            let told = |one: Remark| (one.topic.name(), one.name, in_python(&one.text));
             remarks.into_iter().map(told).collect()
         })
     }
@@ -273,7 +274,7 @@ impl Model {
                 let overlap = fit.overlap.as_ref().map_or(0.0, |overlap| overlap.depth);
                 (gap, overlap, fit.distance)
             });
-            let warnings = warnings.iter().map(ToString::to_string);
+            let warnings = warnings.iter().map(in_python);
             Ok((unknowns, told.collect(), warnings.collect()))
         });
         checked.map_err(|error: Error| raised(error, "model"))

@@ -38,6 +38,7 @@ use crate::{
     results::{Kept, Results},
     start,
     step::Step,
+    words::in_python,
 };
 use messenger::Messenger;
 
@@ -100,7 +101,7 @@ impl Run {
 
     fn warnings(&self) -> Vec<String> {
         let warnings = self.finished.summary.warnings.iter();
-        warnings.map(|warning| warning.text.clone()).collect()
+        warnings.map(|warning| in_python(&warning.text)).collect()
     }
 
     /// Names of the columns of the history, and its rows.
@@ -356,7 +357,7 @@ fn ended_with(finished: Finished, messenger: Messenger, raised: Vec<Raised>) -> 
     };
     let told = Told {
         ending: ending.to_owned(),
-        reason: finished.ending.to_string(),
+        reason: in_python(&finished.ending),
     };
     Run::new(finished, kept, raised, told)
 }

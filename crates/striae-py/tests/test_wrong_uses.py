@@ -310,8 +310,8 @@ MODEL_ERRORS: list[tuple[Callable[[], Any], str]] = [
     (
         lambda: floored(st.Nap(0.2, 0.3, 0.25)).check(),
         "pairs[0].friction: the friction of pair `pad-floor` needs a texture on one side;"
-        " sides that have one: 0; give a side its direction, such as"
-        " `texture = { uniform = [1, 0, 0] }`",
+        " sides that have one: 0; give a side its direction, such as `texture=(1, 0, 0)` of a rigid"
+        " body or `textured((1, 0, 0))` of a set",
     ),
     (
         lambda: built(lambda body: [st.gravity((0, 0, -9.81)), body["zmin"].hold()]).check(),
@@ -524,6 +524,14 @@ def test_a_wrong_type_is_refused_in_these_words(wrong: Callable[[], Any], words:
     with pytest.raises(TypeError) as caught:
         wrong()
     assert str(caught.value) == words
+
+
+def test_remedies_are_in_the_words_of_python() -> None:
+    body, floor = pad(), st.Plane("floor", point=(0, 0, -0.1))
+    model = st.Model([body], [floor], [st.Pair(body["zmin"], floor)])
+    model.step("press", body["zmax"].displace(x=0, y=0), body["zmax"].pressure(1.0))
+    told = str(model.advice())
+    assert "set `stabilise=True` in the pair" in told and "= true" not in told
 
 
 def test_equal_rigid_bodies_of_one_name_are_one() -> None:
