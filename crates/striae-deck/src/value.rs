@@ -1,4 +1,6 @@
 //! Plain values: texts, numbers within bounds, lists.
+//!
+//! Longer than other files, as it is the one list of plain values.
 
 use super::{
     expression::is_expression,

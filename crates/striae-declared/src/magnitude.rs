@@ -18,7 +18,8 @@ pub const ADVICE: &str = "check its unit and its exponent";
 /// small as it likes where it may be zero.
 pub fn needed(bounds: &[Bound], number: f64) -> Option<&'static str> {
     let may_be_zero = bounds.iter().all(|bound| bound.admits(0.0));
-    let is_small = number.abs() < *MAGNITUDES.start() && !may_be_zero;
+    // Bounds refuse zero themselves.
+    let is_small = number != 0.0 && number.abs() < *MAGNITUDES.start() && !may_be_zero;
     let is_large = number.abs() > *MAGNITUDES.end();
     (is_small || is_large).then_some(match may_be_zero {
         true => "at most 1e50 in magnitude",
@@ -65,6 +66,7 @@ mod tests {
     fn numbers_that_may_be_zero_may_be_small() {
         let positive = Some("from 1e-50 to 1e50");
         for (number, expected) in [
+            (0.0, None),
             (1e-50, None),
             (1e50, None),
             (1e-320, positive),

@@ -228,7 +228,7 @@ fn a_hand_that_drives_a_block_off_an_edge_is_let_go_by_name() {
         for (force, divisions) in [(1e-3, [4, 3]), (1e-3, [3, 4]), (1e-2, [4, 3])] {
             let run = Run::of(driven_off(friction.clone(), force, divisions));
             let (mover, motions, reached) = let_go(&run);
-            assert_eq!((mover, &*motions), (hand.clone(), "`z`"));
+            assert_eq!((mover, &*motions), (hand.clone(), "in `z`"));
             // The overlap ends at 0.8; friction and load shear and squeeze the block.
             assert!(reached > 0.75 && reached < 0.95, "{reached}");
         }
@@ -264,7 +264,7 @@ fn a_block_that_is_pulled_off_is_let_go_by_name() {
     motion.force = Some(Vec3::new(0.0, 0.0, 1e-3));
     model.steps[1].rigid_motions = vec![motion];
     let (_, motions, reached) = let_go(&Run::of(model));
-    assert_eq!(motions, "`z`");
+    assert_eq!(motions, "in `z`");
     assert!((reached - 0.5).abs() < 2e-3, "{reached}");
 }
 
