@@ -389,7 +389,7 @@ mod tests {
 
     #[test]
     fn rows_name_only_crates_that_stand_below_them() {
-        // The ladder has no cycles: every crate can be reached by going down only.
+        // The ladder has no cycles and few rungs: every crate is reached by going down only.
         fn depth(name: &str, left: usize) -> usize {
             assert!(left > 0, "cycle through {name}");
             let row = LADDER.iter().find(|row| row.name == name).unwrap();
@@ -397,7 +397,7 @@ mod tests {
             1 + below.max().unwrap_or(0)
         }
         for row in LADDER {
-            assert!(depth(row.name, LADDER.len()) <= 10, "{}", row.name);
+            assert!(depth(row.name, LADDER.len()) <= 11, "{}", row.name);
         }
     }
 }
