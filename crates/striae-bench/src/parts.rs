@@ -4,7 +4,7 @@ use crate::{clock::timed, compare, component, element, scene, yardstick};
 use nalgebra::Matrix3;
 use serde_json::{Value, json};
 use std::{error::Error, hint::black_box};
-use striae_condensed::{Automatic, Choice, Partition, Tangent};
+use striae_condensed::{Automatic, Choice, Partition, Tangent, TangentSolver};
 use striae_contact::{
     complementarity::{Conditions, Iteration},
     evaluation::evaluate,

@@ -60,7 +60,7 @@ mod together {
     use striae::{
         Ranks,
         model::Backend,
-        solve::{newton::SharedSolver, team::Team},
+        solve::{newton::TangentSolver, team::Team},
     };
     use striae_petsc::{Choice, PetscSolver};
 
@@ -84,7 +84,7 @@ mod together {
             Arc::new(self.0.clone())
         }
 
-        fn solver(&self, backend: Backend) -> Box<dyn SharedSolver> {
+        fn solver(&self, backend: Backend) -> Box<dyn TangentSolver> {
             let choice = match backend {
                 Backend::Condensed => Choice::ByCost,
                 Backend::Iterative => Choice::Iterative,

@@ -22,6 +22,7 @@ use crate::{
     iterative::Iterative,
     partition::Partition,
     report::{Analysis, Factored, FallBack, Method},
+    solver::TangentSolver,
     tangent::Tangent,
 };
 use striae_sparse::{
@@ -253,52 +254,57 @@ impl Automatic {
         self.experience.condensed_failed(reason);
         self.factor_lu(tangent)
     }
+
+    /// Factors contact on older factors of the bodies while these are good enough, else all.
+    fn refreshed_or_anew(&mut self, tangent: &Tangent) -> Result<Factored, SolveError> {
+        self.factored = None;
+        let good = self.allowance >= FEWEST && 4 * self.experience.taken <= 3 * self.allowance;
+        if let Some(condensed) = self.condensed.as_mut()
+            && self.experience.patience == 0
+            && good
+            && let Ok(Some(report)) = condensed.refresh(tangent)
+        {
+            self.factored = Some(Made::Condensed(Age::Stale));
+            return Ok(report);
+        }
+        self.factor_anew(tangent)
+    }
+
+    /// Solves with the last factors; others are made where they do not serve.
+    fn solved_to(
+        &mut self,
+        tangent: &Tangent,
+        rhs: &[f64],
+        x: &mut [f64],
+        reduction: f64,
+    ) -> Result<SolveReport, SolveError> {
+        if self.factored == Some(Made::Iterative) {
+            let iterative = self.iterative.as_ref().ok_or(SolveError::NotFactored)?;
+            if let Some(report) = iterative.solve(tangent, rhs, x, reduction)? {
+                return Ok(report);
+            }
+            self.give_up(FallBack::NotConverged);
+            self.factor_anew(tangent)?;
+        }
+        while let Some(Made::Condensed(age)) = self.factored {
+            match self.solve_condensed(age, tangent, (rhs, &mut *x), reduction) {
+                Ok(Some(report)) => return Ok(report),
+                Ok(None) => self.factor_anew(tangent)?,
+                Err(SolveError::Inaccurate { backward_error }) => {
+                    self.fall_back(FallBack::Inaccurate { backward_error }, tangent)?
+                }
+                Err(other) => return Err(other),
+            };
+        }
+        match (self.lu.as_mut(), self.factored) {
+            (Some(solver), Some(_)) => solver.solve(tangent, rhs, x),
+            _ => Err(SolveError::NotFactored),
+        }
+    }
 }
 
 /// Public interface of the solver.
 impl Automatic {
-    /// Orders the unknowns and predicts the cost. Earlier factorisations are forgotten, unless
-    /// additional couplings of contact only matter to an LU: if the condensed solver is used and no
-    /// more supervariables are kept.
-    ///
-    /// # Errors
-    /// Returns why the unknowns cannot be ordered.
-    pub fn analyse(&mut self, partition: &Partition) -> Result<Analysis, SolveError> {
-        if let Some(condensed) = self.unchanged(partition) {
-            let analysis = condensed.analysis(self.precision());
-            self.partition = Some(partition.clone());
-            self.lu = None;
-            return Ok(analysis);
-        }
-        *self = Self {
-            choice: self.choice,
-            experience: self.experience.of_other_pattern(),
-            ..Self::default()
-        };
-        self.partition = Some(partition.clone());
-        let direct = match self.choice {
-            Choice::Multifrontal => Some(Method::Multifrontal),
-            Choice::Faer => Some(Method::Faer),
-            Choice::ByCost | Choice::Iterative => None,
-        };
-        if let Some(method) = direct {
-            let (solver, analysis) = analysed_lu(method, partition.whole())?;
-            self.lu = Some(solver);
-            return Ok(analysis);
-        }
-        let unknowns = partition.unknowns();
-        if self.choice == Choice::Iterative || unknowns > MANY {
-            self.iterative = Iterative::analyse(partition);
-        }
-        if self.iterative.is_some() {
-            if self.choice == Choice::ByCost {
-                self.reason = Some(FallBack::ManyUnknowns { unknowns });
-            }
-            return Ok(Iterative::analysis(partition.whole()));
-        }
-        self.plan_by_cost(partition)
-    }
-
     /// Plans the solver that costs least.
     fn plan_by_cost(&mut self, partition: &Partition) -> Result<Analysis, SolveError> {
         let condensed = Condensed::analyse(partition)?;
@@ -366,64 +372,6 @@ impl Automatic {
         Ok(all)
     }
 
-    /// Gives what has failed another try: matrices of another state come.
-    pub fn start_afresh(&mut self) {
-        self.experience.forgive();
-        if AGED * self.experience.taken > self.allowance {
-            self.forget();
-        }
-        if let Some(condensed) = &mut self.condensed {
-            condensed.forget_untouched();
-        }
-    }
-
-    /// Forgets all factors, but not the analysis: matrices of another kind come.
-    pub fn forget(&mut self) {
-        self.experience.taken = 0;
-        if let Some(condensed) = &mut self.condensed {
-            condensed.forget();
-        }
-    }
-
-    /// Experience from earlier matrices.
-    pub fn experience(&self) -> &Experience {
-        &self.experience
-    }
-
-    /// Interior that the present factors were made of.
-    pub fn factored_interior(&self) -> Option<FactoredInterior> {
-        self.condensed.as_ref().and_then(Condensed::factored)
-    }
-
-    /// Takes up the experience and the factors of another solver with the same analysis.
-    pub fn recall(&mut self, experience: &Experience, interior: Option<&FactoredInterior>) {
-        (self.experience.too_coarse, self.experience.taken) =
-            (experience.too_coarse, experience.taken);
-        if let (Some(condensed), Some(interior)) = (&mut self.condensed, interior)
-            && condensed.factor_again(interior).is_err()
-        {
-            condensed.forget();
-        }
-    }
-
-    /// Factors a matrix of the analysed partition.
-    ///
-    /// # Errors
-    /// Returns why no method can.
-    pub fn factor(&mut self, tangent: &Tangent) -> Result<Factored, SolveError> {
-        self.factored = None;
-        let good = self.allowance >= FEWEST && 4 * self.experience.taken <= 3 * self.allowance;
-        if let Some(condensed) = self.condensed.as_mut()
-            && self.experience.patience == 0
-            && good
-            && let Ok(Some(report)) = condensed.refresh(tangent)
-        {
-            self.factored = Some(Made::Condensed(Age::Stale));
-            return Ok(report);
-        }
-        self.factor_anew(tangent)
-    }
-
     /// Solves `tangent x = rhs` with the last factorisation, to [`REDUCTION`] at least.
     ///
     /// `tangent` is the factored one or one close to it: the residual is that of
@@ -439,53 +387,86 @@ impl Automatic {
     ) -> Result<SolveReport, SolveError> {
         self.solve_to(tangent, rhs, x, REDUCTION)
     }
+}
 
-    /// Solves as [`solve`](Self::solve) does, with a residual reduced by `reduction`
-    /// where it is not reduced to round-off: where the factors of the bodies are
-    /// [stale](Age::Stale) or the solver is iterative.
-    ///
-    /// # Errors
-    /// Returns why there is no accurate solution.
-    pub fn solve_to(
+impl TangentSolver for Automatic {
+    /// Orders the unknowns and predicts the cost. Earlier factorisations are forgotten, unless
+    /// additional couplings of contact only matter to an LU: if the condensed solver is used and no
+    /// more supervariables are kept.
+    fn analyse(&mut self, partition: &Partition) -> Result<Analysis, SolveError> {
+        if let Some(condensed) = self.unchanged(partition) {
+            let analysis = condensed.analysis(self.precision());
+            self.partition = Some(partition.clone());
+            self.lu = None;
+            return Ok(analysis);
+        }
+        *self = Self {
+            choice: self.choice,
+            experience: self.experience.of_other_pattern(),
+            ..Self::default()
+        };
+        self.partition = Some(partition.clone());
+        let direct = match self.choice {
+            Choice::Multifrontal => Some(Method::Multifrontal),
+            Choice::Faer => Some(Method::Faer),
+            Choice::ByCost | Choice::Iterative => None,
+        };
+        if let Some(method) = direct {
+            let (solver, analysis) = analysed_lu(method, partition.whole())?;
+            self.lu = Some(solver);
+            return Ok(analysis);
+        }
+        let unknowns = partition.unknowns();
+        if self.choice == Choice::Iterative || unknowns > MANY {
+            self.iterative = Iterative::analyse(partition);
+        }
+        if self.iterative.is_some() {
+            if self.choice == Choice::ByCost {
+                self.reason = Some(FallBack::ManyUnknowns { unknowns });
+            }
+            return Ok(Iterative::analysis(partition.whole()));
+        }
+        self.plan_by_cost(partition)
+    }
+
+    // All linear algebra of this process is done on threads of the pool, which need not be woken
+    // then.
+    fn factor(&mut self, tangent: &Tangent) -> Result<Factored, SolveError> {
+        rayon::scope(|_| self.refreshed_or_anew(tangent))
+    }
+
+    /// Reduces the residual by `reduction` where it is not reduced to round-off: where the factors
+    /// of the bodies are [stale](Age::Stale) or the solver is iterative.
+    fn solve_to(
         &mut self,
         tangent: &Tangent,
         rhs: &[f64],
         x: &mut [f64],
         reduction: f64,
     ) -> Result<SolveReport, SolveError> {
-        if self.factored == Some(Made::Iterative) {
-            let iterative = self.iterative.as_ref().ok_or(SolveError::NotFactored)?;
-            if let Some(report) = iterative.solve(tangent, rhs, x, reduction)? {
-                return Ok(report);
-            }
-            self.give_up(FallBack::NotConverged);
-            self.factor_anew(tangent)?;
-        }
-        while let Some(Made::Condensed(age)) = self.factored {
-            match self.solve_condensed(age, tangent, (rhs, &mut *x), reduction) {
-                Ok(Some(report)) => return Ok(report),
-                Ok(None) => self.factor_anew(tangent)?,
-                Err(SolveError::Inaccurate { backward_error }) => {
-                    self.fall_back(FallBack::Inaccurate { backward_error }, tangent)?
-                }
-                Err(other) => return Err(other),
-            };
-        }
-        match (self.lu.as_mut(), self.factored) {
-            (Some(solver), Some(_)) => solver.solve(tangent, rhs, x),
-            _ => Err(SolveError::NotFactored),
+        rayon::scope(|_| self.solved_to(tangent, rhs, x, reduction))
+    }
+
+    /// Forgets factors, but not the analysis.
+    fn forget(&mut self) {
+        self.experience.taken = 0;
+        if let Some(condensed) = &mut self.condensed {
+            condensed.forget();
         }
     }
 
-    /// Solves `tangent x = rhs`, of which the residual is reduced by `reduction`, with the factors
-    /// there are of a matrix close to `tangent`; nothing changes for matrices to come.
-    ///
-    /// `None` where they are those of another method than the condensed one or too far from
-    /// `tangent`.
-    ///
-    /// # Errors
-    /// When `rhs` or `x` do not fit.
-    pub fn solve_beside(
+    fn start_afresh(&mut self) {
+        self.experience.forgive();
+        if AGED * self.experience.taken > self.allowance {
+            self.forget();
+        }
+        if let Some(condensed) = &mut self.condensed {
+            condensed.forget_untouched();
+        }
+    }
+
+    /// Solves with factors of the condensed solver alone.
+    fn solve_beside(
         &self,
         tangent: &Tangent,
         rhs: &[f64],
@@ -501,34 +482,42 @@ impl Automatic {
             iterations: MOST,
             reduction,
         };
-        condensed.solve_nearby(tangent, (rhs, x), ends)
+        rayon::scope(|_| condensed.solve_nearby(tangent, (rhs, x), ends))
     }
 
-    /// Returns whether calling [`solve_other_contact`](Self::solve_other_contact) pays now.
-    pub fn has_interior(&self) -> bool {
+    /// Returns whether correcting contact alone is cheap enough to pay.
+    fn has_interior(&self) -> bool {
         let condensed = self.condensed.as_ref();
         matches!(self.factored, Some(Made::Condensed(_)))
             && condensed.is_some_and(|condensed| condensed.share_of_contact() <= CHEAP)
     }
 
-    /// Solves `tangent x = rhs` where `tangent` differs from the last factored one in
-    /// contact only, on the factors of the interior there
-    /// are and without refinement: for corrections that are checked by other means.
-    ///
-    /// `None` where there are no such factors after all.
-    ///
-    /// # Errors
-    /// Returns why the contact system cannot be solved.
-    pub fn solve_other_contact(
+    /// Solves without refinement, for corrections that are checked by other means.
+    fn solve_other_contact(
         &mut self,
         tangent: &Tangent,
         rhs: &[f64],
     ) -> Result<Option<Vec<f64>>, SolveError> {
         match (&mut self.condensed, self.factored) {
             (Some(condensed), Some(Made::Condensed(_))) => {
-                condensed.solve_other_contact(tangent, rhs)
+                rayon::scope(|_| condensed.solve_other_contact(tangent, rhs))
             }
             _ => Ok(None),
+        }
+    }
+
+    fn experience(&self) -> (Experience, Option<FactoredInterior>) {
+        let interior = self.condensed.as_ref().and_then(Condensed::factored);
+        (self.experience.clone(), interior)
+    }
+
+    fn recall(&mut self, experience: &Experience, interior: Option<&FactoredInterior>) {
+        (self.experience.too_coarse, self.experience.taken) =
+            (experience.too_coarse, experience.taken);
+        if let (Some(condensed), Some(interior)) = (&mut self.condensed, interior)
+            && condensed.factor_again(interior).is_err()
+        {
+            condensed.forget();
         }
     }
 }

@@ -7,7 +7,7 @@
 //! large for factors, and an LU that takes the system as it is:
 //!
 //! ```
-//! use striae_condensed::{Automatic, Choice, Growth, Partition, Tangent};
+//! use striae_condensed::{Automatic, Choice, Growth, Partition, Tangent, TangentSolver};
 //! use striae_sparse::{PlacedBlock, Structure, Supervariable};
 //!
 //! // Two springs, and a multiplier that ties their ends.
@@ -51,14 +51,14 @@ mod iterative;
 mod partition;
 mod report;
 mod scaling;
-mod shared;
+mod solver;
 mod tangent;
 
 pub use automatic::{Automatic, Choice, REDUCTION};
 pub use experience::{Experience, FactoredInterior};
 pub use growth::Growth;
 pub use iterative::{ContactFactors, Group, Stiffening};
-pub use partition::{Partition, PartitionError};
+pub use partition::{Numbering, Partition, PartitionError};
 pub use report::{Analysis, Factored, FallBack, Method};
-pub use shared::{Numbering, SharedSolver};
+pub use solver::TangentSolver;
 pub use tangent::Tangent;

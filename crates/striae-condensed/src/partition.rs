@@ -19,6 +19,7 @@ pub struct Partition {
     /// Structure including the couplings of contact.
     whole: Structure,
     parts: Arc<Parts>,
+    numbering: Option<Arc<Numbering>>,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -31,6 +32,17 @@ struct Parts {
     kept: Vec<bool>,
     /// Point of each supervariable, if they are known.
     points: Option<Arc<[[f64; 3]]>>,
+}
+
+/// Numbers in the whole system of the unknowns of a part.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Numbering {
+    /// Unknowns of the whole system.
+    pub count: usize,
+    /// Unknowns owned by this rank; the ranges of all ranks follow one another.
+    pub own: Range<usize>,
+    /// Number in the whole system of every unknown of the part.
+    pub whole: Vec<usize>,
 }
 
 /// A list that does not fit its structure.
@@ -76,6 +88,7 @@ impl From<&Structure> for Partition {
             }),
             structure: structure.clone(),
             whole: structure.clone(),
+            numbering: None,
         }
     }
 }
@@ -122,6 +135,15 @@ impl Partition {
         Ok(self)
     }
 
+    /// Copy that is part of a system which several ranks put together, with the numbers that its
+    /// unknowns have there.
+    pub fn numbered(self, numbering: Numbering) -> Self {
+        Self {
+            numbering: Some(Arc::new(numbering)),
+            ..self
+        }
+    }
+
     /// Copy with cliques coupled by ties: these join the pattern of the bodies, not the bulk, and
     /// their supervariables are kept.
     ///
@@ -142,6 +164,7 @@ impl Partition {
             structure,
             whole: self.whole.grown(ties.cliques())?,
             parts: Arc::new(parts),
+            numbering: self.numbering.clone(),
         })
     }
 
@@ -157,6 +180,7 @@ impl Partition {
             structure: self.structure.clone(),
             whole,
             parts: Arc::new(parts),
+            numbering: self.numbering.clone(),
         })
     }
 
@@ -273,6 +297,11 @@ impl Partition {
             parts.push(members);
         }
         parts
+    }
+
+    /// Numbers of the unknowns in the system of all ranks; `None` if nothing is known of any.
+    pub fn numbering(&self) -> Option<&Numbering> {
+        self.numbering.as_deref()
     }
 
     /// Points of all supervariables.

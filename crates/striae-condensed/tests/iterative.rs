@@ -2,7 +2,9 @@
 
 mod parts;
 
-use striae_condensed::{Automatic, Choice, FallBack, Method, Partition, REDUCTION, Tangent};
+use striae_condensed::{
+    Automatic, Choice, FallBack, Method, Partition, REDUCTION, Tangent, TangentSolver,
+};
 use striae_sparse::{SolveReport, SparseMatrix, Structure, Supervariable};
 
 #[path = "../../striae-sparse/tests/elastic/mod.rs"]

@@ -6,7 +6,7 @@ mod problems;
 #[path = "../../striae-sparse/tests/solvers/refusals.rs"]
 mod refusals;
 
-use striae_condensed::{Automatic, Choice, Partition, Tangent};
+use striae_condensed::{Automatic, Choice, Partition, Tangent, TangentSolver};
 use striae_sparse::{
     Cost, FactorReport, LinearOperator, LinearSolver, SolveError, SolveReport, SparseMatrix,
     Structure,

@@ -1,7 +1,7 @@
 //! Ranks over MPI, and systems in parts solved by PETSc.
 //!
 //! `Ranks` are the [`Team`](striae_solve::team::Team) of a program that was started as
-//! `mpirun -n N ...`. `PetscSolver` is the [`SharedSolver`](striae_condensed::SharedSolver)
+//! `mpirun -n N ...`. `PetscSolver` is the [`TangentSolver`](striae_condensed::TangentSolver)
 //! of systems whose parts the ranks hold:
 //!
 //! - by FGMRES. The product with the matrix is the sum of the products of the parts, no

@@ -13,7 +13,7 @@ use crate::{
 };
 use std::sync::Arc;
 use striae_condensed::{
-    Analysis, Factored, FallBack, Method, Numbering, Partition, SharedSolver, Tangent,
+    Analysis, Factored, FallBack, Method, Numbering, Partition, Tangent, TangentSolver,
 };
 use striae_solve::team::Team;
 use striae_sparse::{Cost, SolveError, SolveReport, check_finite};
@@ -202,14 +202,12 @@ impl System {
     }
 }
 
-impl SharedSolver for PetscSolver {
-    fn analyse(
-        &mut self,
-        partition: &Partition,
-        numbering: &Numbering,
-    ) -> Result<Analysis, SolveError> {
+impl TangentSolver for PetscSolver {
+    fn analyse(&mut self, partition: &Partition) -> Result<Analysis, SolveError> {
         self.system = None;
         let ranks = &self.ranks;
+        let numbering = partition.numbering().ok_or(SolveError::NotAnalysed);
+        let numbering = agreed(ranks, numbering)?;
         let own = numbering
             .whole
             .iter()
@@ -271,7 +269,7 @@ impl SharedSolver for PetscSolver {
         })
     }
 
-    fn solve(
+    fn solve_to(
         &mut self,
         part: &Tangent,
         rhs: &[f64],

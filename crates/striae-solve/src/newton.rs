@@ -31,7 +31,7 @@ pub use course::Course;
 pub use work::{LinearWork, Times};
 pub use workspace::{Memory, Workspace};
 
-pub use striae_condensed::{Analysis, Experience, FactoredInterior, SharedSolver};
+pub use striae_condensed::{Analysis, Experience, FactoredInterior, TangentSolver};
 use striae_contact::{
     complementarity::Iteration, evaluation::Evaluation, interference::Interference,
     segment::Derivatives, selection::Selection,
@@ -149,7 +149,7 @@ pub fn estimate(problem: &Problem) -> Result<Estimate, CutBack> {
         .analyse(partition)
         .and_then(|analysis| Ok((analysis, solver.estimates(partition)?)));
     let (analysis, mut others) =
-        analysis.map_err(|error| linear_system(problem, (&system.layout, None), error))?;
+        analysis.map_err(|error| linear_system(problem, system.numbers(), error))?;
     others.retain(|other| other.method != analysis.method);
     Ok(Estimate {
         unknowns: partition.unknowns(),

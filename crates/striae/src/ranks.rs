@@ -3,7 +3,7 @@
 use std::{fmt::Debug, sync::Arc};
 
 use striae_model::Backend;
-use striae_solve::{newton::SharedSolver, team::Team};
+use striae_solve::{newton::TangentSolver, team::Team};
 
 use crate::error::Error;
 
@@ -13,7 +13,7 @@ pub trait Ranks: Debug + Send + Sync {
     fn team(&self) -> Arc<dyn Team>;
 
     /// A solver of the systems that they share.
-    fn solver(&self, backend: Backend) -> Box<dyn SharedSolver>;
+    fn solver(&self, backend: Backend) -> Box<dyn TangentSolver>;
 }
 
 /// Result of this rank, or the failure of another rank, the lowest one; collective.

@@ -444,7 +444,7 @@ impl Simulation {
         let backend = problem.model.solver.backend;
         let workspace = match &ranks {
             None => Workspace::new(backend),
-            Some(ranks) => Workspace::shared(ranks.solver(backend)),
+            Some(ranks) => Workspace::with(ranks.solver(backend)),
         };
         let (state, ending) = match begun {
             Begun::Undeformed => drive::run_in(workspace, &problem, (0, 0), start, &mut watch),

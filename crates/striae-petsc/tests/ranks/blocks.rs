@@ -178,7 +178,7 @@ impl Blocks {
             rhs: each().map(|(n, c)| load(n, c)).collect(),
             is_position: each().map(|(_, c)| c < 3).collect(),
             tangent: Tangent { bodies, contact },
-            partition,
+            partition: partition.numbered(numbering.clone()),
             numbering,
             serial,
         }

@@ -1,7 +1,7 @@
 //! Properties that must hold on any number of ranks.
 
 use crate::blocks::{Blocks, Contact, Part, Rank, Top};
-use striae_condensed::{Automatic, Choice as Serial, FallBack, Method, SharedSolver};
+use striae_condensed::{Automatic, Choice as Serial, FallBack, Method, TangentSolver};
 use striae_petsc::{Choice, PetscSolver, Ranks};
 use striae_solve::team::Team;
 use striae_sparse::{SolveError, SolveReport};
@@ -105,11 +105,11 @@ fn solved(
     part: &Part,
     reduction: f64,
 ) -> (Vec<f64>, Method, SolveReport) {
-    solver.analyse(&part.partition, &part.numbering).unwrap();
+    solver.analyse(&part.partition).unwrap();
     let method = solver.factor(&part.tangent).unwrap().method;
     let mut x = vec![f64::NAN; part.rhs.len()];
     let report = solver
-        .solve(&part.tangent, &part.rhs, &mut x, reduction)
+        .solve_to(&part.tangent, &part.rhs, &mut x, reduction)
         .unwrap();
     (x, method, report)
 }
@@ -211,7 +211,7 @@ fn singular(ranks: &Ranks) {
     let loose = blocks(Top::Loose);
     let part = loose.part(Rank(ranks.rank(), ranks.size()));
     let mut direct = PetscSolver::new(ranks, Choice::Mumps);
-    direct.analyse(&part.partition, &part.numbering).unwrap();
+    direct.analyse(&part.partition).unwrap();
     let error = direct.factor(&part.tangent).unwrap_err();
     let SolveError::Singular { unknown, .. } = error else {
         panic!("{error:?}");
@@ -221,10 +221,10 @@ fn singular(ranks: &Ranks) {
     let half = loose.part(Rank(0, 1)).rhs.len() - 3 * 7 * 7 * 4;
     assert!(here.is_none_or(|u| part.serial[u] >= half), "{error:?}");
     let mut iterative = PetscSolver::new(ranks, Choice::Iterative);
-    iterative.analyse(&part.partition, &part.numbering).unwrap();
+    iterative.analyse(&part.partition).unwrap();
     let failed = iterative.factor(&part.tangent).and_then(|_| {
         let mut x = vec![0.0; part.rhs.len()];
-        iterative.solve(&part.tangent, &part.rhs, &mut x, 1e-9)
+        iterative.solve_to(&part.tangent, &part.rhs, &mut x, 1e-9)
     });
     assert!(
         matches!(failed, Err(SolveError::Singular { .. })),
@@ -248,14 +248,14 @@ fn not_finite(ranks: &Ranks) {
     if last {
         part.rhs[11] = f64::NAN;
     }
-    let error = solver.solve(&part.tangent, &part.rhs, &mut x, 1e-9);
+    let error = solver.solve_to(&part.tangent, &part.rhs, &mut x, 1e-9);
     assert!(matches!(error, Err(SolveError::NotFinite { .. })));
     if last {
         part.tangent.bodies.add(&[11], &[11], &[f64::NAN]).unwrap();
     }
     let error = solver.factor(&part.tangent).unwrap_err();
     assert!(matches!(error, SolveError::NotFinite { .. }), "{error:?}");
-    let error = solver.solve(&part.tangent, &part.rhs, &mut x, 1e-9);
+    let error = solver.solve_to(&part.tangent, &part.rhs, &mut x, 1e-9);
     assert_eq!(error, Err(SolveError::NotFactored));
 }
 
@@ -267,7 +267,7 @@ fn few_unknowns(ranks: &Ranks) {
     assert_eq!(method, Method::Mumps);
     solver.forget();
     let mut x = vec![0.0; part.rhs.len()];
-    let error = solver.solve(&part.tangent, &part.rhs, &mut x, 1e-9);
+    let error = solver.solve_to(&part.tangent, &part.rhs, &mut x, 1e-9);
     assert_eq!(error, Err(SolveError::NotFactored));
 }
 

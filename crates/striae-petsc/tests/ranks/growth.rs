@@ -2,7 +2,7 @@
 
 use crate::blocks::{Blocks, Contact, Rank, Top};
 use std::{fs, time::Instant};
-use striae_condensed::SharedSolver;
+use striae_condensed::TangentSolver;
 use striae_petsc::{Choice, PetscSolver, Ranks};
 use striae_solve::team::Team;
 
@@ -26,13 +26,13 @@ pub fn report(ranks: &Ranks, sides: &[&str]) {
             let unknowns = part.numbering.count;
             let before = memory("VmRSS:");
             let mut solver = PetscSolver::new(ranks, Choice::Iterative);
-            solver.analyse(&part.partition, &part.numbering).unwrap();
+            solver.analyse(&part.partition).unwrap();
             let started = Instant::now();
             solver.factor(&part.tangent).unwrap();
             let made = Instant::now();
             let mut x = vec![0.0; part.rhs.len()];
             let report = solver
-                .solve(&part.tangent, &part.rhs, &mut x, 1e-6)
+                .solve_to(&part.tangent, &part.rhs, &mut x, 1e-6)
                 .unwrap();
             let solved = made.elapsed().as_secs_f64();
             let mut bytes = [before, memory("VmRSS:"), memory("VmHWM:")];

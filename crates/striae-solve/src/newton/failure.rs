@@ -35,21 +35,25 @@ pub(super) fn missed(setting: &Setting, trial: &Trial) -> Option<CutBack> {
     None
 }
 
-/// A linear system that cannot be solved, with the place of its singularity. Collective for a
-/// shared system, whose solver names unknowns by their numbers in the whole.
+/// A linear system that cannot be solved, with the place of its fault; collective. Solvers name
+/// unknowns by their numbers in the system of all ranks.
 pub(super) fn linear_system(
     problem: &Problem,
     (layout, numbering): (&Layout, Option<&Numbering>),
     error: SolveError,
 ) -> CutBack {
-    let place = match (&error, numbering) {
-        (SolveError::NotFinite { row }, None) => equilibrium(problem, layout, *row),
-        (SolveError::Singular { unknown, .. }, None) => place(problem, layout, *unknown),
-        (SolveError::Singular { unknown, .. }, Some(numbering)) => {
-            let own = numbering.own.contains(unknown);
-            let at = || numbering.whole.iter().position(|whole| whole == unknown);
+    type Words = fn(&Problem, &Layout, usize) -> String;
+    let fault: Option<(usize, Words)> = match &error {
+        SolveError::NotFinite { row } => Some((*row, equilibrium)),
+        SolveError::Singular { unknown, .. } => Some((*unknown, place)),
+        _ => None,
+    };
+    let place = match (fault, numbering) {
+        (Some((unknown, words)), Some(numbering)) => {
+            let own = numbering.own.contains(&unknown);
+            let at = || numbering.whole.iter().position(|whole| *whole == unknown);
             let found = own.then(at).flatten();
-            let words = found.map(|at| place(problem, layout, at));
+            let words = found.map(|at| words(problem, layout, at));
             told(problem, &words.unwrap_or_default())
         }
         _ => "linear system".to_owned(),

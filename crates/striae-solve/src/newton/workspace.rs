@@ -7,7 +7,7 @@ pub use memory::Memory;
 
 use std::time::Instant;
 
-use striae_condensed::{Analysis, Growth, Numbering, Partition, SharedSolver, Tangent};
+use striae_condensed::{Analysis, Growth, Numbering, Partition, Tangent, TangentSolver};
 use striae_contact::{complementarity::Iteration, segment::Derivatives, selection::Selection};
 use striae_sparse::{Age, SolveError, Structure};
 
@@ -15,7 +15,11 @@ use striae_mesh::Vec3;
 
 use pattern::Pattern;
 
-use super::{course::Course, linear::Linear, work::LinearWork};
+use super::{
+    course::Course,
+    linear::{automatic, solved, solved_beside, solved_with_other_contact},
+    work::LinearWork,
+};
 use crate::{
     assembly::{
         Assembled, Background, Contact, ContactAssembled, ElementPlaces, Imposed, Setting,
@@ -34,7 +38,7 @@ const EXACT: f64 = 1e-12;
 
 /// Data that are kept between increments to save work; no results are among them.
 pub struct Workspace {
-    pub(super) solver: Linear,
+    pub(super) solver: Box<dyn TangentSolver>,
     system: Option<SystemStorage>,
     work: LinearWork,
     /// Start of the last increment.
@@ -44,8 +48,6 @@ pub struct Workspace {
 pub(super) struct SystemStorage {
     pub(super) layout: Layout,
     pub(super) partition: Partition,
-    /// Of a shared system.
-    numbering: Option<Numbering>,
     places: ElementPlaces,
     pub(super) tangent: Tangent,
     pub(super) analysis: Analysis,
@@ -57,16 +59,12 @@ pub(super) struct SystemStorage {
 impl Workspace {
     /// An empty workspace with the given factorisation.
     pub fn new(backend: Backend) -> Self {
-        Self::with(Linear::new(backend))
+        Self::with(Box::new(automatic(backend)))
     }
 
-    /// An empty workspace of one of several ranks that solve their systems together. What is
-    /// done with it is collective.
-    pub fn shared(solver: Box<dyn SharedSolver>) -> Self {
-        Self::with(Linear::Shared(solver))
-    }
-
-    fn with(solver: Linear) -> Self {
+    /// An empty workspace with a solver. Where that is one of several ranks, what is done with the
+    /// workspace is collective.
+    pub fn with(solver: Box<dyn TangentSolver>) -> Self {
         Self {
             solver,
             system: None,
@@ -107,10 +105,6 @@ impl Workspace {
 
     fn lay_out(&mut self, problem: &Problem, extent: Extent) {
         let layout = Layout::new(problem, extent);
-        let numbering = match self.solver {
-            Linear::Alone(_) => None,
-            Linear::Shared(_) => Some(layout.numbering(problem)),
-        };
         let Pattern { cliques, tied } = Pattern::new(problem, &layout);
         let own = "the layout names its own supervariables";
         let bulk = Structure::from_cliques(layout.offsets().to_vec(), &cliques)
@@ -120,11 +114,11 @@ impl Workspace {
             .and_then(|partition| partition.with_points(layout.points(problem)))
             .expect(own);
         let partition = partition.tied(&tied).expect(own);
+        let partition = partition.numbered(layout.numbering(problem));
         self.system = Some(SystemStorage {
             places: ElementPlaces::new(problem, &layout, partition.structure()),
             tangent: Tangent::zero(partition.structure()),
             partition,
-            numbering,
             layout,
             analysis: Analysis::default(),
             growth: Growth::default(),
@@ -163,7 +157,7 @@ impl Workspace {
         if let Ok(Assembled { growth, .. }) = &assembled
             && !growth.is_empty()
         {
-            system.has_grown(growth, solver);
+            system.has_grown(growth, solver.as_mut());
         }
         self.work.times.assembly += started.elapsed();
         let of_contact = assembled.as_ref().map(|assembled| assembled.contact_time);
@@ -199,8 +193,8 @@ impl Workspace {
     pub(super) fn contact_correction(&mut self, residual: &[f64]) -> Option<Vec<f64>> {
         let started = Instant::now();
         let system = self.system.as_ref().expect("the workspace was prepared");
-        let solver = &mut self.solver;
-        let correction = solver.solved_with_other_contact(&system.tangent, residual);
+        let solver = self.solver.as_mut();
+        let correction = solved_with_other_contact(solver, &system.tangent, residual);
         self.work.times.contact += started.elapsed();
         self.work.contact_corrections += usize::from(correction.is_some());
         correction
@@ -247,11 +241,12 @@ impl Workspace {
         };
         let Self { solver, system, .. } = self;
         let system = system.as_mut().expect("the workspace was prepared");
+        let solver = solver.as_mut();
         system.analyse(solver).map_err(without_mass)?;
         solver.forget();
         let solve = |tangent: &Tangent, residual: &[f64]| {
             solver.factor(tangent).map_err(without_mass)?;
-            let solved = solver.solved(tangent, residual, EXACT);
+            let solved = solved(solver, tangent, residual, EXACT);
             solver.forget();
             let (solution, _) = solved.map_err(without_mass)?;
             Ok(solution)
@@ -287,7 +282,7 @@ impl Workspace {
 
     /// Factors the tangent.
     pub(super) fn factor(&mut self) -> Result<(), SolveError> {
-        let solver = &mut self.solver;
+        let solver = self.solver.as_mut();
         let system = self.system.as_mut().expect("the workspace was prepared");
         let times = &mut self.work.times;
         let started = Instant::now();
@@ -320,7 +315,7 @@ impl Workspace {
     ) -> Result<Option<Vec<f64>>, SolveError> {
         let system = self.system.as_ref().expect("the workspace was prepared");
         match other.extent() == Some(system.layout.extent()) {
-            true => other.solver.solved_beside(&system.tangent, residual, part),
+            true => solved_beside(other.solver.as_ref(), &system.tangent, residual, part),
             false => Ok(None),
         }
     }
@@ -328,7 +323,8 @@ impl Workspace {
     fn solution(&mut self, residual: &[f64], part: f64) -> Result<(Vec<f64>, Age), SolveError> {
         let started = Instant::now();
         let system = self.system.as_ref().expect("the workspace was prepared");
-        let (correction, report) = self.solver.solved(&system.tangent, residual, part)?;
+        let solver = self.solver.as_mut();
+        let (correction, report) = solved(solver, &system.tangent, residual, part)?;
         self.work.krylov_iterations += report.krylov_iterations;
         self.work.times.solution += started.elapsed();
         Ok((correction, report.age))
@@ -338,19 +334,19 @@ impl Workspace {
 impl SystemStorage {
     /// Unknowns of all ranks.
     pub(super) fn unknowns(&self) -> usize {
-        let numbering = self.numbering.as_ref();
+        let numbering = self.partition.numbering();
         numbering.map_or(self.layout.unknowns(), |numbering| numbering.count)
     }
 
-    /// Numbers of the unknowns, those in the whole for a shared system.
+    /// Numbers of the unknowns, and those in the system of all ranks.
     pub(super) fn numbers(&self) -> (&Layout, Option<&Numbering>) {
-        (&self.layout, self.numbering.as_ref())
+        (&self.layout, self.partition.numbering())
     }
 
     /// Lets a solver take up the pattern, unless it has.
-    fn analyse(&mut self, solver: &mut Linear) -> Result<(), SolveError> {
+    fn analyse(&mut self, solver: &mut dyn TangentSolver) -> Result<(), SolveError> {
         if !self.analysed {
-            self.analysis = solver.analyse(&self.partition, self.numbering.as_ref())?;
+            self.analysis = solver.analyse(&self.partition)?;
             self.analysed = true;
         }
         Ok(())
@@ -366,7 +362,7 @@ impl SystemStorage {
 
     /// The pattern of contact has grown. A solver prepared for the older one is prepared for the
     /// new one now, so that its kept data do not depend on the time of the next request.
-    fn has_grown(&mut self, growth: &Growth, solver: &mut Linear) {
+    fn has_grown(&mut self, growth: &Growth, solver: &mut dyn TangentSolver) {
         self.growth.extend(growth.clone());
         if std::mem::take(&mut self.analysed) {
             // What cannot be analysed now fails again, and is reported, with the next matrix.

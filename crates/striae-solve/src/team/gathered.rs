@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use striae_condensed::{Analysis, Factored, Method, Numbering, Partition, SharedSolver, Tangent};
+use striae_condensed::{Analysis, Factored, Method, Numbering, Partition, Tangent, TangentSolver};
 use striae_sparse::{
     LinearSolver, MultifrontalLu, SolveError, SolveReport, SparseMatrix, Structure,
 };
@@ -56,9 +56,9 @@ impl Gathered {
     }
 }
 
-impl SharedSolver for Gathered {
-    fn analyse(&mut self, _: &Partition, numbering: &Numbering) -> Result<Analysis, SolveError> {
-        self.numbering = Some(numbering.clone());
+impl TangentSolver for Gathered {
+    fn analyse(&mut self, partition: &Partition) -> Result<Analysis, SolveError> {
+        self.numbering = partition.numbering().cloned();
         self.matrix = None;
         Ok(Analysis {
             method: Method::Multifrontal,
@@ -79,7 +79,7 @@ impl SharedSolver for Gathered {
         })
     }
 
-    fn solve(
+    fn solve_to(
         &mut self,
         _: &Tangent,
         rhs: &[f64],

@@ -99,7 +99,7 @@ fn told(problem: &Problem, team: Option<Arc<dyn Team>>) -> OfRank {
     let (end, ending) = match team {
         None => run(problem, start.clone(), &mut record),
         Some(team) => {
-            let workspace = Workspace::shared(Box::new(Gathered::new(team)));
+            let workspace = Workspace::with(Box::new(Gathered::new(team)));
             run_in(workspace, problem, (0, 0), start.clone(), &mut record)
         }
     };

@@ -201,7 +201,7 @@ fn on_rank(
 ) -> Result<Ending, String> {
     let workspace = match team.size() {
         1 => Workspace::new(Backend::Multifrontal),
-        _ => Workspace::shared(Box::new(Gathered::new(Arc::clone(team)))),
+        _ => Workspace::with(Box::new(Gathered::new(Arc::clone(team)))),
     };
     let (share, output) = (&problem.share, deck.output.clone());
     let said = |error: &dyn std::fmt::Display| error.to_string();

@@ -40,7 +40,7 @@ impl Workspace {
         let Self { solver, system, .. } = self;
         let system = system.as_mut().expect("the workspace was laid out");
         // What cannot be analysed now fails again, and is reported, with the first matrix.
-        let _ = system.analyse(solver);
+        let _ = system.analyse(solver.as_mut());
         solver.recall(&memory.solver, memory.interior.as_ref());
     }
 
