@@ -303,7 +303,6 @@ impl Automatic {
     }
 }
 
-/// Public interface of the solver.
 impl Automatic {
     /// Plans the solver that costs least.
     fn plan_by_cost(&mut self, partition: &Partition) -> Result<Analysis, SolveError> {
