@@ -1,21 +1,26 @@
 //! The history of a run: one row an accepted increment, as comma-separated text.
 //!
-//! The first row fixes the columns. Their names are dotted and free of units,
-//! such as `reaction.bottom.z` or `pair.interface.resultant_a.x`. Numbers are
-//! written with the fewest digits (at most 17) that read back as the same bits, those of
-//! columns that count (see [`COUNTS`]) as integers.
+//! Column names are dotted and free of units, such as `reaction.bottom.z` or
+//! `pair.interface.resultant_a.x`. Numbers are written with the fewest digits (at most 17)
+//! that read back as the same bits, those of columns that count (see [`COUNTS`]) as integers.
 //! Every row is flushed, so an interrupted run keeps all it accepted.
+//!
+//! The first row fixes the columns. Only [`History::append_wider`] adds some, by writing the
+//! whole file again.
 //!
 //! [`History`] writes; [`Table`] reads such a file back, and writes any other
 //! table of numbers.
 
-use std::collections::BTreeSet;
+mod table;
+
 use std::fs::File;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use crate::OutputError;
-use striae_files::{FileError, quoted, read_text, write_atomically};
+use striae_files::FileError;
+pub use table::Table;
+use table::{header, line, refuse_duplicates};
 
 /// Last parts of the names of columns that count something.
 pub const COUNTS: [&str; 7] = [
@@ -69,20 +74,22 @@ impl History {
             let cause = format!("{found} rows where {rows} are needed");
             return Err(OutputError::Content { path, cause });
         }
-        if rows == 0 {
+        table.rows.truncate(rows);
+        Self::with(path, table)
+    }
+
+    /// Replaces an older file by a table, to which rows can be appended.
+    pub(crate) fn with(path: PathBuf, table: Table) -> Result<Self, OutputError> {
+        if table.rows.is_empty() {
             return Self::create(path);
         }
-        table.rows.truncate(rows);
         table.write(&path)?;
-        match File::options().append(true).open(&path) {
-            Ok(file) => Ok(Self {
-                path,
-                file,
-                columns: table.columns,
-                rows,
-            }),
-            Err(cause) => Err(FileError::Write { path, cause }.into()),
-        }
+        Ok(Self {
+            file: opened(&path)?,
+            path,
+            rows: table.rows.len(),
+            columns: table.columns,
+        })
     }
 
     /// Appends one row of named numbers; the first row fixes names and order.
@@ -101,6 +108,26 @@ impl History {
         })?;
         self.rows += 1;
         Ok(())
+    }
+
+    /// Appends one row that may have new columns among those so far, for which the rows so far
+    /// take the number `before` of the column.
+    pub fn append_wider(
+        &mut self,
+        row: &[(&str, f64)],
+        before: impl Fn(&str) -> f64,
+    ) -> Result<(), OutputError> {
+        let names = || row.iter().map(|(name, _)| *name);
+        let is_same = self.columns.iter().map(String::as_str).eq(names());
+        if self.rows > 0 && !is_same {
+            let mut table = Table::read(&self.path)?;
+            if table.widen(&names().collect::<Vec<_>>(), before) {
+                table.write(&self.path)?;
+                self.file = opened(&self.path)?;
+                self.columns = table.columns;
+            }
+        }
+        self.append(row)
     }
 
     fn check(&self, row: &[(&str, f64)]) -> Result<(), OutputError> {
@@ -126,126 +153,13 @@ impl History {
     }
 }
 
-/// Named columns of numbers.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Table {
-    /// Names of the columns.
-    pub columns: Vec<String>,
-    /// Rows, each with one number a column.
-    pub rows: Vec<Vec<f64>>,
-}
-
-impl Table {
-    /// Reads a history; a last line cut short by an interruption is left out.
-    pub fn read(path: &Path) -> Result<Self, OutputError> {
-        let text = read_text(path)?;
-        let whole = text.rfind('\n').map_or("", |end| &text[..end]);
-        let mut lines = whole.lines();
-        let columns: Vec<String> = match lines.next() {
-            Some(names) => fields(names),
-            None => return Ok(Self::default()),
-        };
-        let rows = lines
-            .enumerate()
-            .map(|(index, line)| {
-                row(line, columns.len()).map_err(|cause| OutputError::Content {
-                    path: path.to_owned(),
-                    cause: format!("line {}: {cause}", index + 2),
-                })
-            })
-            .collect::<Result<_, _>>()?;
-        Ok(Self { columns, rows })
-    }
-
-    /// Writes the table, whole or not at all.
-    pub fn write(&self, path: &Path) -> Result<(), OutputError> {
-        refuse_duplicates(path, &self.columns)?;
-        let names = || self.columns.iter().map(String::as_str);
-        let rows = self.rows.iter();
-        let rows = rows.map(|row| line(names().zip(row.iter().copied())));
-        let text: String = std::iter::once(header(&self.columns)).chain(rows).collect();
-        write_atomically(path, text.as_bytes())?;
-        Ok(())
-    }
-
-    /// The numbers of one column.
-    pub fn column(&self, name: &str) -> Option<Vec<f64>> {
-        let index = self.columns.iter().position(|column| column == name)?;
-        Some(self.rows.iter().map(|row| row[index]).collect())
-    }
-}
-
-fn refuse_duplicates(path: &Path, columns: &[String]) -> Result<(), OutputError> {
-    let mut seen = BTreeSet::new();
-    match columns.iter().find(|name| !seen.insert(*name)) {
-        Some(name) => Err(OutputError::Duplicate {
-            path: path.to_owned(),
-            name: name.clone(),
-        }),
-        None => Ok(()),
-    }
-}
-
-fn header(columns: &[String]) -> String {
-    let quoted: Vec<String> = columns.iter().map(|name| quoted(name)).collect();
-    quoted.join(",") + "\n"
-}
-
-/// A line of numbers with the names of their columns.
-fn line<'a>(numbers: impl Iterator<Item = (&'a str, f64)>) -> String {
-    let shortest: Vec<String> = numbers
-        .map(|(name, number)| match is_count(name) && is_whole(number) {
-            true => format!("{number:.0}"),
-            false => format!("{number:?}"),
-        })
-        .collect();
-    shortest.join(",") + "\n"
-}
-
-/// Returns whether the numbers of a column are counts.
-fn is_count(column: &str) -> bool {
-    let last = column.rsplit('.').next();
-    last.is_some_and(|last| COUNTS.contains(&last))
-}
-
-/// Returns whether all digits of a number are before the point and known.
-fn is_whole(number: f64) -> bool {
-    const LARGEST: f64 = (1_u64 << f64::MANTISSA_DIGITS) as f64;
-    number.fract() == 0.0 && number.abs() <= LARGEST
-}
-
-fn row(line: &str, columns: usize) -> Result<Vec<f64>, String> {
-    let numbers: Vec<f64> = line
-        .split(',')
-        .map(|field| {
-            let number = field.trim().parse();
-            number.map_err(|_| format!("`{field}` is not a number"))
-        })
-        .collect::<Result<_, _>>()?;
-    if numbers.len() == columns {
-        Ok(numbers)
-    } else {
-        Err(format!("{} numbers for {columns} columns", numbers.len()))
-    }
-}
-
-fn fields(line: &str) -> Vec<String> {
-    let (mut fields, mut field) = (Vec::new(), String::new());
-    let mut in_quotes = false;
-    let mut letters = line.chars().peekable();
-    while let Some(letter) = letters.next() {
-        match letter {
-            '"' if in_quotes && letters.peek() == Some(&'"') => {
-                letters.next();
-                field.push('"');
-            }
-            '"' => in_quotes = !in_quotes,
-            ',' if !in_quotes => fields.push(std::mem::take(&mut field)),
-            _ => field.push(letter),
-        }
-    }
-    fields.push(field);
-    fields
+/// Opens a file to append to it.
+fn opened(path: &Path) -> Result<File, OutputError> {
+    let opened = File::options().append(true).open(path);
+    opened.map_err(|cause| {
+        let path = path.to_owned();
+        FileError::Write { path, cause }.into()
+    })
 }
 
 #[cfg(test)]
@@ -328,6 +242,38 @@ mod tests {
             error.ends_with("line 2: 1 numbers for 2 columns"),
             "{error}"
         );
+    }
+
+    #[test]
+    fn a_wider_row_widens_the_rows_before() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("history.csv");
+        let mut history = History::create(&path).unwrap();
+        let before = |name: &str| if name == "open" { 7.0 } else { 0.0 };
+        history
+            .append_wider(&[("time", 1.0), ("end", 2.0)], before)
+            .unwrap();
+        let wider = [("time", 3.0), ("open", 4.0), ("force", 5.0), ("end", 6.0)];
+        history.append_wider(&wider, before).unwrap();
+        history.append_wider(&wider, before).unwrap();
+        let table = Table::read(&path).unwrap();
+        assert_eq!(table.columns, ["time", "open", "force", "end"]);
+        let later = vec![3.0, 4.0, 5.0, 6.0];
+        assert_eq!(table.rows, [vec![1.0, 7.0, 0.0, 2.0], later.clone(), later]);
+        let narrow = table
+            .narrowed(&["time".to_owned(), "end".to_owned()], 1)
+            .unwrap();
+        assert_eq!(narrow.text(), "time,end\n1.0,2.0\n");
+        assert_eq!(table.narrowed(&["gap".to_owned()], 1), None);
+        // Columns that have gone are a fault, and the file stays as it was.
+        let error = history
+            .append_wider(&[("time", 7.0), ("new", 8.0)], before)
+            .unwrap_err();
+        assert!(
+            matches!(error, OutputError::Column { row: 4, .. }),
+            "{error}"
+        );
+        assert_eq!(Table::read(&path).unwrap(), table);
     }
 
     proptest! {

@@ -40,8 +40,9 @@ use crate::{
     collections::{Collections, Contact},
     folder::{Claim, Existing, remove_fields},
     history::{History, Table},
+    kept::{HISTORY, continued},
     ranks::{agreed, from_first, is_first, on_first},
-    row::row,
+    row::{before, row},
     summary::{Summary, WarningSummary},
     tally::Tally,
     vtk::Snapshot,
@@ -50,7 +51,7 @@ use crate::{
 };
 
 /// Tables, which grow.
-const TABLES: [&str; 3] = ["history.csv", FILES[0], FILES[1]];
+const TABLES: [&str; 3] = [HISTORY, FILES[0], FILES[1]];
 
 /// Longest time between checkpoints but for that of an increment: what a run loses that is killed.
 const KEPT: Duration = Duration::from_secs(60);
@@ -70,6 +71,8 @@ pub struct Recorder {
     spent: f64,
     /// Of rank 0.
     history: Option<History>,
+    /// Columns of the history.
+    columns: Vec<String>,
     fields: Collections,
     started: Instant,
     /// Time of the last checkpoint, or of the start of the run.
@@ -111,7 +114,8 @@ impl Recorder {
         Ok(Self {
             share: share.clone(),
             _claim: on_first(share, || Claim::new(folder, existing))?,
-            history: on_first(share, || History::create(folder.join("history.csv")))?,
+            history: on_first(share, || History::create(folder.join(HISTORY)))?,
+            columns: Vec::new(),
             fields: Collections::resumed(folder, &Default::default(), Checksums::new()),
             folder: folder.to_owned(),
             case: case.to_owned(),
@@ -156,7 +160,7 @@ impl Recorder {
             Ok(index) if index.written().iterations == written.iterations => Ok(()),
             _ => Err(OutputError::GoneOn(folder.to_owned())),
         })?;
-        on_first(share, || check(folder, &written.sums))?;
+        on_first(share, || check(folder, &written.sums, HISTORY))?;
         let fields = written.sums.iter();
         let fields = fields.filter(|(name, _)| !TABLES.contains(&name.as_str()));
         let rows = written.iterations.len();
@@ -166,7 +170,8 @@ impl Recorder {
         Ok(Self {
             share: share.clone(),
             _claim: claim,
-            history: on_first(share, || History::after(folder.join("history.csv"), rows))?,
+            history: on_first(share, || continued(folder, written))?,
+            columns: written.columns.clone(),
             fields: Collections::resumed(folder, &written.series, fields.cloned().collect()),
             folder: folder.to_owned(),
             case: case.to_owned(),
@@ -208,6 +213,7 @@ impl Recorder {
         }
         Ok(Written {
             iterations: tally.iterations.clone(),
+            columns: self.columns.clone(),
             cut_backs: tally.cut_backs,
             unknowns: tally.unknowns,
             solver: tally.solver.clone(),
@@ -278,13 +284,15 @@ impl Recorder {
         increment: &Increment,
     ) -> Result<(), OutputError> {
         self.tally.increment(increment);
-        let row = row(problem, progress, increment, self.tally.cut_backs);
+        let cut_backs = self.tally.cut_backs;
+        let row = row(problem, progress, increment, cut_backs, &self.columns);
         let named: Vec<(&str, f64)> = row.iter().map(|(n, v)| (n.as_str(), *v)).collect();
-        let appended = self
-            .history
-            .as_mut()
-            .map_or(Ok(()), |file| file.append(&named));
+        let appended = match &mut self.history {
+            Some(file) => file.append_wider(&named, |column| before(&row, column)),
+            None => Ok(()),
+        };
         agreed(&self.share, appended)?;
+        self.columns = row.into_iter().map(|(name, _)| name).collect();
         self.worn.add(&increment.state);
         self.watch(problem, progress, &increment.state)?;
         let is_due = match self.output.fields {
@@ -351,7 +359,7 @@ impl Recorder {
     /// # Errors
     /// When it cannot be read back.
     pub fn table(&self) -> Result<Table, OutputError> {
-        let file = self.folder.join("history.csv");
+        let file = self.folder.join(HISTORY);
         let read = || Table::read(&file).map(|table| (table.columns, table.rows));
         let (columns, rows) = from_first(&self.share, read)?;
         Ok(Table { columns, rows })

@@ -1,7 +1,13 @@
 //! The row of an increment in a history: resultants, reactions, motions and energies.
+//!
+//! Pairs whose sides may touch, of contact of everything for example, have columns from the
+//! increment on in which they do: among `n` bodies there are some `n^2 / 2` pairs, of which a few
+//! `n` touch.
+
+use std::collections::HashSet;
 
 use striae_mesh::Vec3;
-use striae_model::Procedure;
+use striae_model::{Pair, Procedure};
 use striae_solve::{
     drive::Progress,
     dynamics::momentum,
@@ -15,12 +21,13 @@ use striae_solve::{
 };
 
 /// Columns and values of the row of a converged increment, before which `cut_backs`
-/// attempts were cut.
+/// attempts were cut, in a history with the columns `so_far`.
 pub fn row(
     problem: &Problem,
     progress: Progress,
     increment: &Increment,
     cut_backs: usize,
+    so_far: &[String],
 ) -> Vec<(String, f64)> {
     let state = &increment.state;
     let head = [
@@ -31,11 +38,39 @@ pub fn row(
         ("cutbacks", cut_backs as f64),
     ];
     let head = head.map(|(name, value)| (name.to_owned(), value));
-    head.into_iter().chain(state_row(problem, state)).collect()
+    let listed = listed(problem, state, so_far);
+    let rest = state_row(problem, state, &listed);
+    head.into_iter().chain(rest).collect()
 }
 
-/// Columns of a row that follow from the state alone, and their values.
-pub fn state_row(problem: &Problem, state: &State) -> Vec<(String, f64)> {
+/// Returns for each pair whether it has columns in a history that has the columns `so_far`.
+pub fn listed(problem: &Problem, state: &State, so_far: &[String]) -> Vec<bool> {
+    let so_far: HashSet<&str> = so_far.iter().map(String::as_str).collect();
+    let reports = pairs(problem, state);
+    let stated = problem.model.pairs.iter().zip(&reports);
+    let is_listed = |(pair, report): (&Pair, &PairReport)| {
+        let is_known = || so_far.contains(mismatch(&report.name).as_str());
+        let touches = report.stick + report.slip > 0 || report.dissipated != 0.0;
+        pair.is_expected_to_touch() || touches || is_known()
+    };
+    stated.map(is_listed).collect()
+}
+
+/// Number of a column in the rows before the first one that has it: nothing touched.
+pub fn before(row: &[(String, f64)], column: &str) -> f64 {
+    let Some(pair) = column.strip_suffix(".open") else {
+        return 0.0;
+    };
+    let of_pair = |(name, _): &&(String, f64)| {
+        let count = name.strip_prefix(pair);
+        count.is_some_and(|count| [".stick", ".slip", ".open"].contains(&count))
+    };
+    row.iter().filter(of_pair).map(|(_, count)| count).sum()
+}
+
+/// Columns of a row that follow from the state alone, and their values, of pairs that are
+/// [`listed`].
+pub fn state_row(problem: &Problem, state: &State, listed: &[bool]) -> Vec<(String, f64)> {
     let mut row: Vec<(String, f64)> = Vec::new();
     let mut add = |name: &str, value: f64| row.push((name.to_owned(), value));
     add("energy.kinetic", state.energies.kinetic);
@@ -57,7 +92,8 @@ pub fn state_row(problem: &Problem, state: &State) -> Vec<(String, f64)> {
         add_vector(&mut row, &format!("centre.{}", body.name), &body.centre);
         add_vector(&mut row, &format!("velocity.{}", body.name), &body.velocity);
     }
-    for (pair, report) in pairs(problem, state).iter().enumerate() {
+    let reports = pairs(problem, state);
+    for (pair, report) in reports.iter().enumerate().filter(|(pair, _)| listed[*pair]) {
         add_pair(&mut row, report);
         let name = &report.name;
         if problem.pairs[pair].contact.wears() {
@@ -118,6 +154,11 @@ pub(crate) fn add_vector(row: &mut Vec<(String, f64)>, name: &str, vector: &Vec3
     }
 }
 
+/// A column that every pair with columns has.
+fn mismatch(pair: &str) -> String {
+    format!("pair.{pair}.mismatch")
+}
+
 fn add_pair(row: &mut Vec<(String, f64)>, report: &PairReport) {
     let name = format!("pair.{}", report.name);
     for (side, letter) in report.sides.iter().zip(["a", "b"]) {
@@ -125,7 +166,7 @@ fn add_pair(row: &mut Vec<(String, f64)>, report: &PairReport) {
         row.push((format!("{name}.pressure_integral_{letter}"), side.pressure));
         row.push((format!("{name}.friction_integral_{letter}"), side.friction));
     }
-    row.push((format!("{name}.mismatch"), report.mismatch));
+    row.push((mismatch(&report.name), report.mismatch));
     row.push((format!("{name}.moment_mismatch"), report.moment_mismatch));
     row.push((format!("{name}.stick"), report.stick as f64));
     row.push((format!("{name}.slip"), report.slip as f64));

@@ -3,7 +3,7 @@
 use std::{path::PathBuf, time::Instant};
 
 use striae_output::{
-    Existing, Output, OutputError, Tally,
+    Existing, Output, OutputError, Tally, before,
     checkpoint::{Checkpoint, CheckpointError, Source, Written},
     history::Table,
     recorder::Recorder,
@@ -246,9 +246,12 @@ impl Log {
 impl Memory {
     fn increment(&mut self, problem: &Problem, progress: Progress, increment: &Increment) {
         self.tally.increment(increment);
-        let row = row(problem, progress, increment, self.tally.cut_backs);
-        let (columns, values) = row.into_iter().unzip();
-        self.history.columns = columns;
-        self.history.rows.push(values);
+        let (history, cut_backs) = (&mut self.history, self.tally.cut_backs);
+        let row = row(problem, progress, increment, cut_backs, &history.columns);
+        let columns: Vec<&str> = row.iter().map(|(name, _)| name.as_str()).collect();
+        history.widen(&columns, |column| before(&row, column));
+        history
+            .rows
+            .push(row.iter().map(|(_, value)| *value).collect());
     }
 }

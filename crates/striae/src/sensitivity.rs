@@ -8,7 +8,7 @@ use striae_output::{
     OutputError,
     checkpoint::model_fingerprint,
     history::{COUNTS, History, Table},
-    state_row,
+    listed, state_row,
     summary::WarningSummary,
 };
 use striae_solve::{
@@ -179,13 +179,15 @@ impl Followed {
         }
         let neighbours = self.sensitivities.neighbours().iter();
         for (at, (of, table)) in neighbours.zip(&mut self.tables).enumerate() {
-            let row = derivatives(progress, of);
+            // Those of the history, though a neighbour may touch more or less.
+            let listed = listed(&of.parameter.problems[0], &increment.state, &table.columns);
+            let row = derivatives(progress, of, &listed);
+            let named: Vec<(&str, f64)> = row.iter().map(|(n, v)| (n.as_str(), *v)).collect();
             if let Some(files) = &mut self.files {
-                let named: Vec<(&str, f64)> = row.iter().map(|(n, v)| (n.as_str(), *v)).collect();
-                files[at].append(&named)?;
+                files[at].append_wider(&named, |_| 0.0)?;
             }
-            let (columns, values) = row.into_iter().unzip();
-            table.columns = columns;
+            let (columns, values): (Vec<&str>, _) = named.into_iter().unzip();
+            table.widen(&columns, |_| 0.0);
             table.rows.push(values);
         }
         Ok(())
@@ -228,9 +230,9 @@ fn file_name(parameter: &str) -> String {
     format!("sensitivity-{}.csv", name.collect::<String>())
 }
 
-/// The row of derivatives after an increment.
-fn derivatives(progress: Progress, of: &Neighbours) -> Vec<(String, f64)> {
-    let rows = [0, 1].map(|at| state_row(&of.parameter.problems[at], &of.states[at]));
+/// The row of derivatives after an increment, of pairs that are listed.
+fn derivatives(progress: Progress, of: &Neighbours, listed: &[bool]) -> Vec<(String, f64)> {
+    let rows = [0, 1].map(|at| state_row(&of.parameter.problems[at], &of.states[at], listed));
     let counts = |name: &str| {
         let last = name.rsplit('.').next();
         last.is_some_and(|last| COUNTS.contains(&last))

@@ -7,7 +7,7 @@
 //! The scene as it was is run beside it, with a normal for each face at the edges, as where all
 //! touches all. Where nothing is pressed but what its pairs name, forces have to be the same.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::{
     checks::Findings,
@@ -101,17 +101,14 @@ fn owners(scene: &Scene, pair: &Pair) -> [usize; 2] {
     owners
 }
 
-/// The scene with all pairs that a deck came down to.
-pub fn with_found(mut scene: Scene, history: &History) -> Scene {
+/// The scene with all pairs that a deck came down to, by their names.
+pub fn with_found(mut scene: Scene, names: &[String]) -> Scene {
     let Statement::All(law) = scene.statement.clone() else {
         return scene;
     };
-    let name = |column: &str| -> Option<String> {
-        let name = column.strip_prefix("pair.")?.strip_suffix(".mismatch")?;
-        let known = scene.pairs.iter().any(|pair| pair.name == name);
-        (!known).then(|| name.to_owned())
-    };
-    let mut names: Vec<String> = history.names().filter_map(name).collect();
+    let is_known = |name: &String| scene.pairs.iter().any(|pair| pair.name == *name);
+    let mut names: Vec<String> = names.to_vec();
+    names.retain(|name| !is_known(name));
     names.sort_unstable();
     for name in names {
         let Some([a, b]) = sides(&scene, &name) else {
@@ -187,10 +184,12 @@ pub fn compare(findings: &mut Findings, general: &Run, named: &Run) {
     let common = common.take_while(|(time, other)| (time - *other).abs() < 1e-9 * time.abs());
     for row in 0..common.count() {
         let [one, two] = [couples(general, row), couples(named, row)];
-        for (couple, force) in &one {
-            let beside = two.get(couple).copied().unwrap_or([0.0; 3]);
-            largest = largest.max(length(beside)).max(length(*force));
-            let difference = length(minus(*force, beside));
+        let all: BTreeSet<_> = one.keys().chain(two.keys()).collect();
+        for couple in all {
+            let of = |run: &BTreeMap<_, Vector>| run.get(couple).copied().unwrap_or([0.0; 3]);
+            let (force, beside) = (of(&one), of(&two));
+            largest = largest.max(length(beside)).max(length(force));
+            let difference = length(minus(force, beside));
             if difference > off {
                 (off, when) = (difference, row + 1);
             }

@@ -166,7 +166,7 @@ fn one(keep: &Path, binary: &Path, scene: Scene, named: Option<&Scene>) -> Resul
         fs::create_dir_all(&folder).map_err(failed(&folder))?;
         started(binary, &folder, scene)?;
         let out = folder.join("out");
-        let history = History::read(&out.join("history.csv"));
+        let history = History::of_run(&out);
         Ok((out, history))
     };
     let completed = summary.as_ref().is_ok_and(Summary::is_completed);
@@ -174,9 +174,9 @@ fn one(keep: &Path, binary: &Path, scene: Scene, named: Option<&Scene>) -> Resul
         Some(reference) if completed => Some(beside("reference", reference)?.1),
         _ => None,
     };
-    let history = History::read(&out.join("history.csv"));
-    let scene = match &history {
-        Ok(history) => general::with_found(scene, history),
+    let history = History::of_run(&out);
+    let scene = match &summary {
+        Ok(summary) => general::with_found(scene, &summary.pairs),
         Err(_) => scene,
     };
     let mut findings = checks::check(&out, &scene, reference);

@@ -9,6 +9,8 @@ use super::{scene::Scene, vector::Vector, vtu::Grid};
 pub struct History {
     columns: HashMap<String, usize>,
     rows: Vec<Vec<f64>>,
+    /// Pairs that never touched, which have no columns: their numbers are zero.
+    untouched: Vec<String>,
 }
 
 impl History {
@@ -19,6 +21,20 @@ impl History {
     pub fn read(path: &Path) -> Result<Self, String> {
         let text = fs::read_to_string(path).map_err(|cause| cause.to_string())?;
         Self::of(&text)
+    }
+
+    /// Reads the history of a run in a folder.
+    ///
+    /// # Errors
+    /// Returns the fault of the table, in words.
+    pub fn of_run(folder: &Path) -> Result<Self, String> {
+        let mut table = Self::read(&folder.join("history.csv"))?;
+        // A run that was killed has no summary, and nothing of it is judged by pairs.
+        let summary = Summary::read(&folder.join("summary.json")).unwrap_or_default();
+        table.untouched = summary.pairs;
+        let touched = |pair: &String| table.columns.contains_key(&format!("pair.{pair}.mismatch"));
+        table.untouched.retain(|pair| !touched(pair));
+        Ok(table)
     }
 
     /// Reads the text of a table.
@@ -45,7 +61,11 @@ impl History {
                 row.len(),
                 columns.len()
             )),
-            None => Ok(Self { columns, rows }),
+            None => Ok(Self {
+                columns,
+                rows,
+                untouched: Vec::new(),
+            }),
         }
     }
 
@@ -59,9 +79,23 @@ impl History {
         self.columns.keys().map(String::as_str)
     }
 
+    fn is_of_untouched(&self, column: &str) -> bool {
+        let of_pair = |pair: &String| {
+            let column = column
+                .strip_prefix("pair.")
+                .and_then(|rest| rest.strip_prefix(pair.as_str()));
+            column.is_some_and(|rest| rest.starts_with('.'))
+        };
+        self.untouched.iter().any(of_pair)
+    }
+
     /// A number, if the table has the row and the column.
     pub fn number(&self, row: usize, name: &str) -> Option<f64> {
-        self.rows.get(row)?.get(*self.columns.get(name)?).copied()
+        let numbers = self.rows.get(row)?;
+        match self.columns.get(name) {
+            Some(column) => numbers.get(*column).copied(),
+            None => self.is_of_untouched(name).then_some(0.0),
+        }
     }
 
     /// A vector, if the table has its columns.
@@ -128,6 +162,8 @@ pub struct Summary {
     pub cutbacks: usize,
     /// Largest depth over the local facet size that it warns of; zero if it does not.
     pub depth: f64,
+    /// Names of all pairs that the deck came down to.
+    pub pairs: Vec<String>,
 }
 
 impl Summary {
@@ -144,12 +180,16 @@ impl Summary {
         let text = fs::read_to_string(path).map_err(|cause| cause.to_string())?;
         let value: serde_json::Value =
             serde_json::from_str(&text).map_err(|cause| cause.to_string())?;
-        let word = |key: &str| value[key].as_str().unwrap_or_default().to_owned();
+        let word = |value: &serde_json::Value, key: &str| {
+            value[key].as_str().unwrap_or_default().to_owned()
+        };
+        let pairs = value["pairs"].as_array().into_iter().flatten();
         Ok(Self {
-            status: word("status"),
-            reason: word("reason"),
+            status: word(&value, "status"),
+            reason: word(&value, "reason"),
             cutbacks: value["cutbacks"].as_u64().unwrap_or(0) as usize,
             depth: penetration(&value),
+            pairs: pairs.map(|pair| word(pair, "name")).collect(),
         })
     }
 }

@@ -43,7 +43,7 @@ pub const FILE: &str = "checkpoint.bin";
 pub const END: &str = "end.bin";
 
 /// Number of the format, to be raised when the content changes.
-pub const FORMAT: u64 = 24;
+pub const FORMAT: u64 = 25;
 
 /// A run in progress.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -81,6 +81,8 @@ pub struct Source {
 pub struct Written {
     /// Newton iterations of every increment.
     pub iterations: Vec<usize>,
+    /// Columns of the history.
+    pub columns: Vec<String>,
     /// Increments that were cut.
     pub cut_backs: usize,
     /// Unknowns of the last system.

@@ -63,6 +63,8 @@ class History(Mapping[str, Floats]):
         if column not in self._columns:
             close = [name for name in self._columns if column in name][:8]
             hint = f"; similar are {close}" if close else ""
+            if column.startswith("pair."):
+                hint += "; pairs that may touch have columns once they do"
             raise KeyError(f"no column is named `{column}`{hint}")
         found: Floats = self._rows[:, self._columns[column]]
         return found

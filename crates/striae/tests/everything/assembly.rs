@@ -6,7 +6,7 @@ use striae::{
     Simulation,
     advice::{Advice, Topic},
     deck,
-    output::vtk::read_series,
+    output::{history::Table, vtk::read_series},
 };
 use striae_solve::outcome::Ending;
 
@@ -121,4 +121,38 @@ fn advice_counts_pairs_that_are_far_apart() {
         let mut notes = advice.notes.iter();
         assert!(notes.any(|note| note.text.contains(told)), "{told}");
     }
+}
+
+#[test]
+fn pairs_have_columns_from_their_first_touch_on() {
+    // The heads begin above the feet and reach them in the second increment.
+    let text = piles(2)
+        .replace(", 0, 1], size", ", 0, 1.015], size")
+        .replace("increments = 2", "increments = 4");
+    let parsed = || deck::parse(&text, "deck", Path::new("")).unwrap_or_else(|f| panic!("{f}"));
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let recorded = Simulation::of(parsed()).unwrap().recorded(folder, "piles");
+    let recorded = recorded.run().unwrap();
+    let table = Table::read(&folder.join("history.csv")).unwrap();
+    let alone = Simulation::of(parsed()).unwrap().run().unwrap();
+    assert_eq!(table, recorded.history);
+    assert_eq!(table.columns, alone.history.columns);
+    let columns = table.columns.iter();
+    let pairs: BTreeSet<&str> = columns
+        .filter_map(|column| column.strip_prefix("pair.")?.strip_suffix(".mismatch"))
+        .collect();
+    assert_eq!(
+        pairs.into_iter().collect::<Vec<_>>(),
+        ["foot-0-head-0", "foot-1-head-1"]
+    );
+    let column = |name: &str| table.column(&format!("pair.foot-1-head-1.{name}")).unwrap();
+    let [stick, slip, open] = ["stick", "slip", "open"].map(column);
+    assert_eq!(stick[0] + slip[0], 0.0);
+    assert!(stick[3] + slip[3] > 0.0);
+    for row in 0..4 {
+        assert_eq!(stick[row] + slip[row] + open[row], open[0]);
+    }
+    assert_eq!(column("resultant_a.z")[0], 0.0);
+    assert!(column("resultant_a.z")[3] < 0.0);
 }

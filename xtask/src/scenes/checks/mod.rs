@@ -136,7 +136,7 @@ pub fn check(
     scene: &Scene,
     reference: Option<Result<History, String>>,
 ) -> Result<Findings, String> {
-    let history = History::read(&folder.join("history.csv"))?;
+    let history = History::of_run(folder)?;
     let mut findings = Findings::default();
     table::check(&mut findings, scene, &history);
     let mut read = 0;
