@@ -39,7 +39,7 @@ pub use folder::{Existing, is_occupied};
 pub use memory::available_bytes;
 pub use probes::weights as probe_weights;
 pub use ranks::{agreed, from_first};
-pub use row::{before, listed, row, state_row};
+pub use row::{before_touch, listed, row, state_row};
 pub use sections::cut as section_cut;
 pub use settings::{BodyField, ContactField, FieldOutput, Output, Probe, ProbePlace, Section};
 pub use tally::Tally;

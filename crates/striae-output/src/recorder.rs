@@ -42,7 +42,7 @@ use crate::{
     history::{History, Table},
     kept::{HISTORY, continued},
     ranks::{agreed, from_first, is_first, on_first},
-    row::{before, row},
+    row::{before_touch, row},
     summary::{Summary, WarningSummary},
     tally::Tally,
     vtk::Snapshot,
@@ -160,7 +160,8 @@ impl Recorder {
             Ok(index) if index.written().iterations == written.iterations => Ok(()),
             _ => Err(OutputError::GoneOn(folder.to_owned())),
         })?;
-        on_first(share, || check(folder, &written.sums, HISTORY))?;
+        let sums = written.sums.iter().filter(|(name, _)| name != HISTORY);
+        on_first(share, || check(folder, sums))?;
         let fields = written.sums.iter();
         let fields = fields.filter(|(name, _)| !TABLES.contains(&name.as_str()));
         let rows = written.iterations.len();
@@ -288,7 +289,7 @@ impl Recorder {
         let row = row(problem, progress, increment, cut_backs, &self.columns);
         let named: Vec<(&str, f64)> = row.iter().map(|(n, v)| (n.as_str(), *v)).collect();
         let appended = match &mut self.history {
-            Some(file) => file.append_wider(&named, |column| before(&row, column)),
+            Some(file) => file.append_wider(&named, |column| before_touch(&row, column)),
             None => Ok(()),
         };
         agreed(&self.share, appended)?;

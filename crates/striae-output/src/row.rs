@@ -57,7 +57,7 @@ pub fn listed(problem: &Problem, state: &State, so_far: &[String]) -> Vec<bool> 
 }
 
 /// Number of a column in the rows before the first one that has it: nothing touched.
-pub fn before(row: &[(String, f64)], column: &str) -> f64 {
+pub fn before_touch(row: &[(String, f64)], column: &str) -> f64 {
     let Some(pair) = column.strip_suffix(".open") else {
         return 0.0;
     };

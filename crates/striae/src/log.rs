@@ -3,7 +3,7 @@
 use std::{path::PathBuf, time::Instant};
 
 use striae_output::{
-    Existing, Output, OutputError, Tally, before,
+    Existing, Output, OutputError, Tally, before_touch,
     checkpoint::{Checkpoint, CheckpointError, Source, Written},
     history::Table,
     recorder::Recorder,
@@ -249,7 +249,7 @@ impl Memory {
         let (history, cut_backs) = (&mut self.history, self.tally.cut_backs);
         let row = row(problem, progress, increment, cut_backs, &history.columns);
         let columns: Vec<&str> = row.iter().map(|(name, _)| name.as_str()).collect();
-        history.widen(&columns, |column| before(&row, column));
+        history.widen(&columns, |column| before_touch(&row, column));
         history
             .rows
             .push(row.iter().map(|(_, value)| *value).collect());

@@ -208,6 +208,18 @@ mod tests {
     use super::*;
 
     #[test]
+    fn pairs_that_never_touched_have_zeros_and_unknown_ones_nothing() {
+        let mut history = History::of("time,pair.a-b.mismatch\n0.5,0.25\n").unwrap();
+        history.untouched = vec!["a-c".to_owned()];
+        assert_eq!(history.number(0, "pair.a-b.mismatch"), Some(0.25));
+        assert_eq!(history.number(0, "pair.a-c.area"), Some(0.0));
+        assert_eq!(history.vector(0, "pair.a-c.resultant_a"), Some([0.0; 3]));
+        assert_eq!(history.number(0, "pair.a-b.area"), None);
+        assert_eq!(history.number(0, "pair.a-cd.area"), None);
+        assert_eq!(history.number(1, "pair.a-c.area"), None);
+    }
+
+    #[test]
     fn the_largest_depth_that_is_warned_of_is_read() {
         let of = |text: &str| penetration(&serde_json::from_str(text).unwrap());
         let warnings = r#"{"warnings": [
